@@ -1,0 +1,174 @@
+/// `cleave run`: read a case, advance it to its end, write the result directory.
+#include "app/commands.h"
+#include "app/exit_code.h"
+#include "app/instruction_set.h"
+#include "app/log.h"
+#include "app/measure_table.h"
+#include "app/progress.h"
+#include "app/run_files.h"
+#include "app/run_options.h"
+#include "app/stop_request.h"
+#include "core/error.h"
+#include "io/particle_file.h"
+#include "io/vdb_file.h"
+#include "solver/observe.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+namespace app
+{
+namespace
+{
+struct Run
+{
+    const solver::Problem& problem;
+    solver::Prepared prepared;
+    solver::Derived derived;
+    solver::State state;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// State and files from the newest checkpoint, or from time 0 if there is none.
+void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
+{
+    std::optional<solver::State> stored;
+    if (options.resume)
+        stored = io::resume(files.directory / "checkpoint", files.of_case,
+                            [&](const std::string& text) { log.line("warning: " + text); });
+    if (!stored) {
+        if (options.resume) log.line("no checkpoint to resume from: starting at time 0");
+        run.state = solver::initialise(run.problem, run.prepared, run.derived);
+        files.history = std::make_unique<io::HistoryFile>(files.directory / "history.csv", run.problem.grid.levels);
+        files.record.particles_start = solver::particles_per_level(run.state);
+        return;
+    }
+    const io::RunRecord before = io::read_run_record(files.directory / "run.json");
+    run.state = std::move(*stored);
+    solver::resume(run.problem, run.prepared, run.state, run.derived);
+    files.history = std::make_unique<io::HistoryFile>(files.directory / "history.csv", run.problem.grid.levels,
+                                                      run.state.clock.step);
+    io::rewind_particle_series(files.directory / "particles", run.state.clock.time);
+    files.vdb_frame = io::last_vdb_frame(files.directory / "vdb", run.state.clock.step);
+    files.record.particles_start = before.particles_start;
+    files.record.particle_steps = before.particle_steps;
+    files.wall_before = before.wall_s;
+    Real largest = 0;
+    for (const solver::HistoryLine& line : run.state.history) largest = std::max(largest, line.cod);
+    for (Schedule* schedule : {&files.history_due, &files.particles_due, &files.vdb_due})
+        schedule->skip_to(run.state.clock, largest);
+    log.line(fmt::format("resumed at step {}, t = {:.6g} ms", run.state.clock.step, run.state.clock.time));
+}
+
+enum class Ending
+{
+    done,
+    stopped,
+};
+
+Ending loop(const RunOptions& options, Log& log, Run& run, RunFiles& files, std::chrono::steady_clock::time_point start)
+{
+    Progress progress(run.problem.end, log);
+    const auto newest = [&] { return run.state.history.empty() ? solver::HistoryLine{} : run.state.history.back(); };
+    const std::optional<Real> every_wall = run.problem.output.checkpoint_every_wall;
+    while (solver::finished(run.problem, run.state) == solver::Finish::no) {
+        solver::advance(run.problem, run.prepared, run.state, run.derived);
+        files.record.particle_steps += run.state.particles.size();
+        write_due(run.problem, run.prepared, run.derived, run.state, files);
+        progress.after_step(run.state.clock, newest(), run.state.particles.size());
+        const double wall = seconds_since(start);
+        if (stop_requested() || (options.walltime && wall > *options.walltime)) {
+            write_checkpoint(run.problem, run.state, wall, files);
+            return Ending::stopped;
+        }
+        if (every_wall && wall - files.last_checkpoint > *every_wall)
+            write_checkpoint(run.problem, run.state, wall, files);
+    }
+    return Ending::done;
+}
+
+std::string finish_text(solver::Finish finish)
+{
+    switch (finish) {
+    case solver::Finish::time:
+        return "end.time reached";
+    case solver::Finish::cod:
+        return "end.cod reached";
+    case solver::Finish::separated:
+        return "the specimen has separated";
+    case solver::Finish::no:
+        break;
+    }
+    return "stopped on request, with a checkpoint; --resume continues";
+}
+
+int run_case(const RunOptions& options)
+{
+    const io::Case read = io::read_case_with_warnings(options.file, options.overrides);
+    const auto directory = result_directory(options);
+    RunFiles files = open_files(directory, read);
+    Log log(directory / "log.txt");
+    for (const std::string& warning : read.warnings) log.line(warning);
+    const int hardware = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    const int threads = options.threads > 0 ? options.threads : hardware;
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    files.record.threads = threads;
+    files.record.compiler = compiler_name();
+    files.record.instruction_set = instruction_set();
+    catch_stop_signals();
+
+    const auto start = std::chrono::steady_clock::now();
+    Run run{read.problem, solver::prepare(read.problem), solver::Derived{}, solver::State{}};
+    try {
+        begin(options, log, run, files);
+        log.line(fmt::format("cleave {}: {}\n{} particles, {} threads, results in {}", CLEAVE_VERSION,
+                             read.problem.title, run.state.particles.size(), threads, directory.string()));
+        write_record(run.problem, run.state, 0, files);
+        const Ending ending = loop(options, log, run, files, start);
+        if (ending == Ending::done) {
+            files.history->append(solver::observe(run.problem, run.prepared, run.derived, run.state));
+            write_last_frames(run.problem, run.state, files);
+        }
+        files.record.status = ending == Ending::done ? "done" : "stopped";
+        files.record.exit_reason = finish_text(solver::finished(run.problem, run.state));
+        write_record(run.problem, run.state, seconds_since(start), files);
+        log.line(measure_table(files.record, run.problem.references));
+        return ending == Ending::done ? exit_done : exit_stopped;
+    } catch (const core::NumericalError& error) {
+        files.record.status = "failed";
+        files.record.exit_reason = error.what();
+        write_record(run.problem, run.state, seconds_since(start), files);
+        log.file_line(error.what());
+        throw;
+    }
+}
+} // namespace
+
+void add_run(CLI::App& program, Command& chosen)
+{
+    CLI::App* command = program.add_subcommand("run", "Run a case");
+    const auto options = std::make_shared<RunOptions>();
+    command->add_option("CASE", options->file, "case file")->required();
+    command->add_option("-o,--output", options->directory, "result directory (default: results/<name of the case>)");
+    command->add_option("--threads", options->threads, "threads (default: all)")->check(CLI::PositiveNumber);
+    command->add_option("--set", options->overrides, "key=value, such as grid.cell=0.5; may be repeated")
+        ->allow_extra_args(false);
+    command->add_flag("--resume", options->resume, "go on from the newest checkpoint in the result directory");
+    command->add_flag("--force", options->force, "replace a run that the result directory holds");
+    command
+        ->add_option_function<std::string>(
+            "--walltime", [options](const std::string& text) { options->walltime = parse_walltime(text); },
+            "stop with a checkpoint and exit code 75 after this time: 90 (s), 3:50:00, 45min")
+        ->type_name("T");
+    command->callback([&chosen, options] { chosen = [options] { return run_case(*options); }; });
+}
+} // namespace app

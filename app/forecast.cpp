@@ -1,0 +1,205 @@
+#include "app/forecast.h"
+
+#include "io/particle_fields.h"
+#include "refine/populate.h"
+#include "refine/zone.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace app
+{
+namespace
+{
+constexpr Real infinity = std::numeric_limits<Real>::infinity();
+
+geometry::Bounds bounds_of_all(const solver::Problem& problem)
+{
+    geometry::Bounds all = problem.bodies.front().shape.bounds();
+    for (const solver::Body& body : problem.bodies) {
+        const geometry::Bounds own = body.shape.bounds();
+        all.lower = all.lower.cwiseMin(own.lower);
+        all.upper = all.upper.cwiseMax(own.upper);
+    }
+    return all;
+}
+
+refine::Lattice lattice_of(const solver::Problem& problem)
+{
+    return {problem.grid.cell, problem.grid.origin, problem.grid.levels};
+}
+
+using LeafKey = std::array<int, 4>; // level and leaf position
+
+LeafKey leaf_of(const solver::Problem& problem, const particles::Particles& particles, std::size_t p)
+{
+    const int level = particles.size_level[p];
+    const Real side = 8 * problem.grid.cell / static_cast<Real>(1 << level);
+    LeafKey key{level, 0, 0, 0};
+    for (std::size_t a = 0; a < 3; ++a)
+        key[a + 1] =
+            static_cast<int>(std::floor((particles.position[a][p] - problem.grid.origin[static_cast<int>(a)]) / side));
+    return key;
+}
+
+/// Seed one slab of level-0 cells after the other, count, forget.
+void count_particles(const solver::Problem& problem, Forecast& forecast)
+{
+    const refine::Lattice lattice = lattice_of(problem);
+    const grid::Refinement refinement = refine::refinement_of(problem.zones, lattice, bounds_of_all(problem));
+    const int per_axis = static_cast<int>(std::lround(std::cbrt(problem.grid.particles_per_cell)));
+    const Real thickness = 8 * problem.grid.cell;
+    std::set<LeafKey> leaves;
+    forecast.particles.assign(static_cast<std::size_t>(problem.grid.levels), 0);
+    for (const solver::Body& body : problem.bodies) {
+        const geometry::Bounds bounds = body.shape.bounds();
+        const int first = static_cast<int>(std::floor((bounds.lower[0] - problem.grid.origin[0]) / thickness));
+        for (int slab = first; problem.grid.origin[0] + slab * thickness < bounds.upper[0]; ++slab) {
+            const Real lower = problem.grid.origin[0] + slab * thickness;
+            const geometry::Shape layer =
+                geometry::box(Vec3(lower, -infinity, -infinity), Vec3(lower + thickness, infinity, infinity));
+            particles::Particles particles;
+            const particles::SeedTraits traits{1, Vec3::Zero(), 0, problem.grid.edge};
+            refine::populate(geometry::intersect({body.shape, layer}), traits, lattice, refinement, per_axis,
+                             particles);
+            for (std::size_t p = 0; p < particles.size(); ++p) {
+                ++forecast.particles[particles.size_level[p]];
+                leaves.insert(leaf_of(problem, particles, p));
+            }
+        }
+    }
+    forecast.leaves = leaves.size();
+}
+
+Real fastest_wave(const solver::Problem& problem)
+{
+    Real fastest = 0;
+    for (const material::Material& material : problem.materials)
+        fastest = std::max(fastest, std::sqrt(material.elastic.wave_modulus() / material.elastic.density));
+    return fastest;
+}
+
+/// Prescribed speed of a named load along an axis [mm/ms].
+Real speed_of(const solver::Problem& problem, const std::string& name, int axis)
+{
+    for (const solver::Load& load : problem.loads)
+        if (load.name == name) return load.velocity[static_cast<std::size_t>(axis)].value_or(0);
+    return 0;
+}
+
+/// Time until the run ends at the latest; the opening is taken to follow the loads, half of a ramp late.
+Real end_time(const solver::Problem& problem)
+{
+    Real ramp = 0;
+    for (const solver::Load& load : problem.loads) ramp = std::max(ramp, load.ramp.time);
+    const Real speed = std::abs(speed_of(problem, problem.force_upper, problem.force_axis) -
+                                speed_of(problem, problem.force_lower, problem.force_axis));
+    const Real by_opening = speed > 0 ? problem.end.cod / speed + ramp / 2 : infinity;
+    return std::min(problem.end.time, by_opening);
+}
+
+Real frames(const solver::OutputEvery& every, const Forecast& forecast, const solver::Problem& problem)
+{
+    Real count = 0;
+    if (every.time) count += forecast.end_time / *every.time;
+    if (every.steps) count += forecast.steps / static_cast<Real>(*every.steps);
+    if (every.cod && std::isfinite(problem.end.cod)) count += problem.end.cod / *every.cod;
+    return count > 0 ? std::floor(count) + 1 : 0;
+}
+
+Real bytes_per_written_particle(const solver::Output& output)
+{
+    const Real real = output.particle_precision == "f64" ? 8 : 4;
+    Real bytes = 4 * real + 4; // place, side, and the connectivity that compresses to little
+    for (const std::string& name : output.particle_fields)
+        if (const io::ParticleField* field = io::find_particle_field(name))
+            bytes += static_cast<Real>(field->components) * real;
+    return bytes;
+}
+
+/// All voxels are as fine as the finest level: a particle of a coarser one fills 8, 64, ... of them.
+Real vdb_frame_bytes(const solver::Problem& problem, const Forecast& forecast)
+{
+    Real voxels = 0;
+    for (std::size_t l = 0; l < forecast.particles.size(); ++l)
+        voxels += static_cast<Real>(forecast.particles[l]) / problem.grid.particles_per_cell *
+                  std::pow(8.0, static_cast<Real>(forecast.particles.size() - 1 - l));
+    Real bytes = 0;
+    for (const std::string& grid : problem.output.vdb_grids) bytes += grid == "velocity" ? 6 : 2;
+    return voxels * bytes;
+}
+
+/// Kinetic energy density at the loads' speed over the elastic energy density at yield: rho v^2 E / sigma_y^2.
+Real kinetic_share(const solver::Problem& problem)
+{
+    Real speed_squared = 0, share = 0;
+    for (const solver::Load& load : problem.loads) {
+        Real squared = 0;
+        for (const std::optional<Real>& component : load.velocity) squared += std::pow(component.value_or(0), 2);
+        speed_squared = std::max(speed_squared, squared);
+    }
+    for (const material::Material& material : problem.materials)
+        if (material.plastic)
+            share = std::max(share, material.elastic.density * speed_squared * material.elastic.youngs_modulus /
+                                        std::pow(material.plastic->yield_stress, 2));
+    return share;
+}
+} // namespace
+
+std::uint64_t Forecast::total_particles() const
+{
+    std::uint64_t total = 0;
+    for (const std::uint64_t count : particles) total += count;
+    return total;
+}
+
+Forecast forecast(const solver::Problem& problem)
+{
+    Forecast forecast;
+    count_particles(problem, forecast);
+    const Real finest = problem.grid.cell / static_cast<Real>(1 << (problem.grid.levels - 1));
+    forecast.dt = problem.numerics.cfl * finest / fastest_wave(problem);
+    forecast.end_time = end_time(problem);
+    forecast.steps = std::ceil(forecast.end_time / forecast.dt);
+    const Real particles = static_cast<Real>(forecast.total_particles());
+    forecast.memory = bytes_per_particle * particles + bytes_per_leaf * static_cast<Real>(forecast.leaves);
+    forecast.particle_frames = frames(problem.output.particles, forecast, problem);
+    forecast.particle_bytes = forecast.particle_frames * particles * bytes_per_written_particle(problem.output);
+    forecast.vdb_frames = frames(problem.output.vdb, forecast, problem);
+    forecast.vdb_bytes = forecast.vdb_frames * vdb_frame_bytes(problem, forecast);
+    forecast.kinetic_share = kinetic_share(problem);
+    return forecast;
+}
+
+std::string level_map(const solver::Problem& problem, int columns)
+{
+    const geometry::Bounds bounds = bounds_of_all(problem);
+    const Vec3 size = bounds.upper - bounds.lower;
+    int through = 0;
+    size.minCoeff(&through);
+    const int u = (through + 1) % 3, v = (through + 2) % 3;
+    const grid::Refinement refinement = refine::refinement_of(problem.zones, lattice_of(problem), bounds);
+    // One character per coarse cell if they fit; a character is about twice as tall as it is wide.
+    const Real width = std::max(problem.grid.cell, size[u] / std::max(columns, 10));
+    const Real height = 2 * width;
+    const int across = static_cast<int>(std::ceil(size[u] / width - 1e-9));
+    const int down = static_cast<int>(std::ceil(size[v] / height - 1e-9));
+    std::string map;
+    for (int row = 0; row < down; ++row) {
+        for (int column = 0; column < across; ++column) {
+            Vec3 at = (bounds.lower + bounds.upper) / 2;
+            at[u] = bounds.lower[u] + (column + 0.5) * width;
+            at[v] = bounds.upper[v] - (row + 0.5) * height;
+            const bool solid = std::any_of(problem.bodies.begin(), problem.bodies.end(),
+                                           [&](const solver::Body& body) { return body.shape.contains(at); });
+            const int level = refinement.locate((at - problem.grid.origin) / problem.grid.cell).level;
+            map += solid ? static_cast<char>('0' + level) : '.';
+        }
+        map += '\n';
+    }
+    return map;
+}
+} // namespace app

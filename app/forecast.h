@@ -1,0 +1,41 @@
+/// What a case will cost, from counting its particles without keeping them.
+#pragma once
+
+#include "solver/problem.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace app
+{
+/// Speed per thread assumed where nothing was measured, and memory per particle, both of total-Lagrangian trilinear
+/// runs in double precision; `cleave bench` measures the first on the machine at hand.
+inline constexpr Real assumed_steps_per_s = 10e6; // particle-steps/s of one thread
+inline constexpr Real bytes_per_particle = 300;   // byte, columns and sorting buffers
+inline constexpr Real bytes_per_leaf = 120e3;     // byte, tile of 9^3 nodes with sums and motion, and tables
+
+struct Forecast
+{
+    std::vector<std::uint64_t> particles; // per level
+    std::uint64_t leaves = 0;             // 1, 8^3 blocks of cells on all levels
+    Real dt = 0;                          // ms, before deformation shortens it
+    Real end_time = 0;                    // ms, by end.time or end.cod at full speed; infinite: not known
+    Real steps = 0;                       // 1
+    Real memory = 0;                      // byte
+    Real particle_frames = 0;             // 1
+    Real particle_bytes = 0;              // byte, all frames
+    Real vdb_frames = 0;                  // 1
+    Real vdb_bytes = 0;                   // byte, all frames
+    Real kinetic_share = 0;               // 1, kinetic over elastic energy of a body that yields everywhere
+
+    std::uint64_t total_particles() const;
+};
+
+/// Count particles level by level as a run would seed them, slab by slab so that memory stays small.
+Forecast forecast(const solver::Problem& problem);
+
+/// Levels in the plane through the middle of the bodies, across their thinnest direction: one character per place, '.'
+/// void, '0' the coarsest level; at most `columns` wide.
+std::string level_map(const solver::Problem& problem, int columns);
+} // namespace app

@@ -1,0 +1,52 @@
+#include "app/log.h"
+
+#include "io/atomic_file.h"
+
+#include <cerrno>
+#include <unistd.h>
+
+namespace app
+{
+Log::Log(const std::filesystem::path& path, std::FILE* out, bool terminal)
+    : file_(std::fopen(path.c_str(), "ae")), out_(out), terminal_(terminal)
+{
+    if (file_ == nullptr) io::throw_file_error("write", path, errno);
+}
+
+Log::Log(const std::filesystem::path& path) : Log(path, stdout, ::isatty(STDOUT_FILENO) == 1) {}
+
+Log::~Log()
+{
+    if (status_shown_) std::fputc('\n', out_); // the last status stays readable
+    std::fclose(file_);
+}
+
+void Log::clear_status()
+{
+    if (status_shown_) std::fputs("\r\033[K", out_);
+    status_shown_ = false;
+}
+
+void Log::file_line(const std::string& text)
+{
+    std::fprintf(file_, "%s\n", text.c_str());
+    std::fflush(file_);
+}
+
+void Log::line(const std::string& text)
+{
+    clear_status();
+    std::fprintf(out_, "%s\n", text.c_str());
+    std::fflush(out_);
+    file_line(text);
+}
+
+void Log::status(const std::string& text)
+{
+    if (!terminal_) return;
+    clear_status();
+    std::fputs(text.c_str(), out_);
+    std::fflush(out_);
+    status_shown_ = true;
+}
+} // namespace app

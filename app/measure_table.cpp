@@ -1,0 +1,51 @@
+#include "app/measure_table.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace app
+{
+namespace
+{
+std::string number_text(const std::string& name, Real value)
+{
+    if (!std::isfinite(value)) return "not reached";
+    if (name.ends_with("_N")) return fmt::format("{:.0f} N", value);
+    if (name.ends_with("_mm")) return fmt::format("{:.2f} mm", value);
+    return fmt::format("{:.2e}", value);
+}
+
+std::string reference_text(const io::Measure& own, const solver::Reference& reference)
+{
+    if (const auto* path = std::get_if<std::string>(&own.value); path != nullptr)
+        return reference.crack_path.empty() ? "-" : reference.crack_path;
+    const auto found = reference.measure.find(own.name);
+    if (found == reference.measure.end()) return "-";
+    const Real value = std::get<Real>(own.value);
+    const std::string text = number_text(own.name, found->second);
+    if (!std::isfinite(value) || found->second == 0) return text;
+    return fmt::format("{} ({:+.0f} %)", text, 100 * (value / found->second - 1));
+}
+} // namespace
+
+std::string measure_table(const io::RunRecord& record, const std::vector<solver::Reference>& references)
+{
+    std::string table = fmt::format("\n{:<18}{:>16}", "", "this run");
+    for (const solver::Reference& reference : references) table += fmt::format("{:>26}", reference.name);
+    for (const io::Measure& measure : record.measures) {
+        const auto* path = std::get_if<std::string>(&measure.value);
+        const std::string own = path == nullptr ? number_text(measure.name, std::get<Real>(measure.value))
+                                : path->empty() ? "none"
+                                                : *path;
+        table += fmt::format("\n{:<18}{:>16}", measure.name, own);
+        for (const solver::Reference& reference : references)
+            table += fmt::format("{:>26}", reference_text(measure, reference));
+    }
+    if (!references.empty()) table += "\n(in brackets: this run against that number)";
+    const Real rate = record.wall_s > 0 ? static_cast<Real>(record.particle_steps) / record.wall_s / 1e6 : Real(0);
+    return table + fmt::format("\n\n{} after {} steps in {:.1f} s: {:.1f} million particle-steps/s, {:.2f} GB at most",
+                               record.exit_reason, record.steps, record.wall_s, rate,
+                               static_cast<Real>(record.peak_rss_bytes) / 1e9);
+}
+} // namespace app

@@ -1,0 +1,66 @@
+#include "app/modelled.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace app
+{
+namespace
+{
+std::string scheme_text(const solver::Numerics& n)
+{
+    const bool total = n.formulation == solver::Formulation::total;
+    const std::string transfer = n.transfer == solver::Transfer::apic ? "APIC"
+                                 : n.pic_fraction > 0                 ? fmt::format("FLIP with {} PIC", n.pic_fraction)
+                                                                      : "FLIP";
+    return fmt::format("{} Lagrangian, trilinear basis, {}, stress update {}", total ? "total" : "updated", transfer,
+                       n.stress_update == solver::StressUpdate::musl ? "from velocities mapped again (MUSL)"
+                                                                     : "last (USL)");
+}
+
+std::string cracks_text(const material::Material& m, const solver::State& state)
+{
+    std::size_t count[3] = {0, 0, 0};
+    Real snap_back = 0;
+    for (const core::Crack& crack : state.particles.cracks) {
+        ++count[std::clamp(crack.mode - 1, 0, 2)];
+        snap_back = std::max(snap_back, crack.snap_back_ratio);
+    }
+    if (state.particles.cracks.empty())
+        return fmt::format("{}: decohesion, no particle has started to separate", m.name);
+    return fmt::format(
+        "{}: decohesion; {} particles in opening, {} in shear, {} in mixed mode; largest L_e / L_crit {:.3g} "
+        "({})",
+        m.name, count[0], count[1], count[2], snap_back,
+        m.decohesion->snap_back == material::SnapBack::brittle_drop ? "brittle drop beyond 1"
+                                                                    : "fracture energy raised to the floor beyond 1");
+}
+} // namespace
+
+std::vector<std::string> modelled(const solver::Problem& problem, const solver::State& state)
+{
+    std::vector<std::string> text;
+    text.push_back(scheme_text(problem.numerics));
+    text.push_back(problem.grid.levels == 1
+                       ? std::string("one level")
+                       : fmt::format("{} levels, finer in {} zone(s): {} slave nodes at the interfaces",
+                                     problem.grid.levels, problem.zones.size(), [&] {
+                                         std::size_t slaves = 0;
+                                         for (const auto& face : state.levels.interface) slaves += face.slave.size();
+                                         return slaves;
+                                     }()));
+    for (const solver::SymmetryPlane& plane : problem.symmetry)
+        text.push_back(fmt::format("half model: symmetry plane {} = {} mm", "xyz"[plane.axis], plane.at));
+    text.push_back(problem.grid.edge == solver::EdgeTreatment::fraction
+                       ? "cut cells: particle volumes scaled by the part inside the body"
+                       : "cut cells: particles in or out by their centre (staircase)");
+    for (const material::Material& m : problem.materials) {
+        text.push_back(
+            fmt::format("{}: {}{}", m.name, m.plastic ? "von Mises, linear hardening" : "elastic",
+                        m.plastic && m.cell_averaged_dilatation ? ", cell-averaged dilatation against locking" : ""));
+        if (m.decohesion) text.push_back(cracks_text(m, state));
+    }
+    return text;
+}
+} // namespace app

@@ -1,0 +1,154 @@
+#include "app/run_files.h"
+
+#include "app/modelled.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/particle_file.h"
+#include "io/process_memory.h"
+#include "io/vdb_file.h"
+#include "solver/measures.h"
+#include "solver/observe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace app
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+bool holds_run(const fs::path& directory)
+{
+    return fs::exists(directory / "run.json");
+}
+
+std::int64_t multiples(Real value, Real every)
+{
+    // The tolerance keeps a clock that sums steps from missing a multiple by its last bit.
+    return static_cast<std::int64_t>(std::floor(value / every * (1 + 1e-12)));
+}
+
+void write_particles(const solver::Problem& problem, const solver::State& state, RunFiles& files)
+{
+    io::ParticleFileOptions options;
+    options.fields = problem.output.particle_fields;
+    options.precision = problem.output.particle_precision == "f64" ? io::Precision::f64 : io::Precision::f32;
+    options.particles_per_cell = problem.grid.particles_per_cell;
+    options.version = CLEAVE_VERSION;
+    io::write_particle_frame(files.directory / "particles", state.particles, state.levels, state.clock, options);
+}
+
+void write_volume(const solver::Problem& problem, const solver::State& state, RunFiles& files)
+{
+    io::VdbFileOptions options;
+    options.grids = problem.output.vdb_grids;
+    options.preset = problem.output.vdb_preset;
+    options.scale = problem.output.vdb_scale;
+    options.particles_per_cell = problem.grid.particles_per_cell;
+    options.version = CLEAVE_VERSION;
+    io::write_vdb_frame(files.directory / "vdb", ++files.vdb_frame, state.particles, state.levels, state.clock,
+                        options);
+}
+
+bool wanted(const solver::OutputEvery& every)
+{
+    return every.time || every.steps || every.cod;
+}
+} // namespace
+
+bool Schedule::due(const solver::Clock& clock, std::optional<Real> cod)
+{
+    bool now = every.steps && clock.step % *every.steps == 0;
+    if (every.time) {
+        const std::int64_t count = multiples(clock.time, *every.time);
+        now = now || count > by_time;
+        by_time = count;
+    }
+    if (every.cod && cod) {
+        const std::int64_t count = multiples(*cod, *every.cod);
+        now = now || count > by_cod;
+        by_cod = std::max(by_cod, count);
+    }
+    return now;
+}
+
+void Schedule::skip_to(const solver::Clock& clock, Real largest_cod)
+{
+    if (every.time) by_time = multiples(clock.time, *every.time);
+    if (every.cod) by_cod = std::max<std::int64_t>(0, multiples(largest_cod, *every.cod));
+}
+
+fs::path result_directory(const RunOptions& options)
+{
+    if (!options.directory.empty()) {
+        if (holds_run(options.directory) && !options.resume && !options.force)
+            throw core::InputError(fmt::format("{} holds a run already. --resume continues it, --force replaces it, or "
+                                               "choose another -o.",
+                                               options.directory));
+        return options.directory;
+    }
+    const std::string name = fs::path(options.file).stem().string();
+    fs::path directory = fs::path("results") / name;
+    if (options.resume || options.force) return directory;
+    for (int n = 2; holds_run(directory); ++n) directory = fs::path("results") / fmt::format("{}-{}", name, n);
+    return directory;
+}
+
+RunFiles open_files(const fs::path& directory, const io::Case& run_case)
+{
+    io::make_directory(directory);
+    RunFiles files;
+    files.directory = directory;
+    files.of_case = {run_case.resolved, CLEAVE_VERSION};
+    files.record.title = run_case.problem.title;
+    files.record.version = CLEAVE_VERSION;
+    files.history_due.every = run_case.problem.output.history;
+    files.particles_due.every = run_case.problem.output.particles;
+    files.vdb_due.every = run_case.problem.output.vdb;
+    io::write_file(directory / "resolved.toml", run_case.resolved);
+    return files;
+}
+
+void write_due(const solver::Problem& problem, const solver::Prepared& prepared, const solver::Derived& derived,
+               solver::State& state, RunFiles& files)
+{
+    std::optional<Real> cod;
+    if (state.clock.step % opening_interval == 0) cod = solver::gauge_opening(problem, state, derived);
+    if (files.history_due.due(state.clock, cod)) files.history->append(observe(problem, prepared, derived, state));
+    if (files.particles_due.due(state.clock, cod)) write_particles(problem, state, files);
+    if (files.vdb_due.due(state.clock, cod)) write_volume(problem, state, files);
+}
+
+void write_last_frames(const solver::Problem& problem, const solver::State& state, RunFiles& files)
+{
+    if (wanted(problem.output.particles)) write_particles(problem, state, files);
+    if (wanted(problem.output.vdb)) write_volume(problem, state, files);
+}
+
+void write_checkpoint(const solver::Problem& problem, const solver::State& state, double wall_s, RunFiles& files)
+{
+    io::write_checkpoint(files.directory / "checkpoint", state, files.of_case, problem.output.checkpoint_keep);
+    files.last_checkpoint = wall_s;
+    write_record(problem, state, wall_s, files);
+}
+
+void write_record(const solver::Problem& problem, const solver::State& state, double wall_s, RunFiles& files)
+{
+    io::RunRecord& record = files.record;
+    record.wall_s = files.wall_before + wall_s;
+    record.steps = state.clock.step;
+    record.peak_rss_bytes = io::peak_resident_bytes();
+    record.particles_end = solver::particles_per_level(state);
+    record.modelled = modelled(problem, state);
+    const solver::Measures measures = solver::measures(problem, state.history, state.ligaments);
+    record.measures.clear();
+    for (const solver::Measure& m : measures.numbers)
+        record.measures.push_back({m.name, m.value.value_or(std::numeric_limits<Real>::quiet_NaN())});
+    record.measures.push_back({"crack_path", measures.crack_path});
+    io::write_run_record(files.directory / "run.json", record);
+}
+} // namespace app

@@ -1,0 +1,65 @@
+/// The result directory of a run (design: section 1): what is written there and when.
+#pragma once
+
+#include "app/run_options.h"
+#include "io/case.h"
+#include "io/checkpoint.h"
+#include "io/history_file.h"
+#include "io/run_record.h"
+#include "solver/state.h"
+#include "solver/step.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace app
+{
+/// Steps between two looks at the opening for outputs that are due by it.
+inline constexpr int opening_interval = 16;
+
+/// Counts multiples of an output interval that have gone by, so that an output is due once for each.
+struct Schedule
+{
+    solver::OutputEvery every;
+    std::int64_t by_time = 0; // multiples of every.time behind us
+    std::int64_t by_cod = 0;  // multiples of every.cod behind us, at the largest opening so far
+
+    /// Is an output due now? Takes it off the schedule.
+    bool due(const solver::Clock& clock, std::optional<Real> cod);
+    /// Take everything up to now off the schedule: after a restart.
+    void skip_to(const solver::Clock& clock, Real largest_cod);
+};
+
+/// Open files and schedules of one run.
+struct RunFiles
+{
+    std::filesystem::path directory;
+    io::CheckpointCase of_case;
+    io::RunRecord record;
+    std::unique_ptr<io::HistoryFile> history;
+    Schedule history_due, particles_due, vdb_due;
+    int vdb_frame = 0;
+    double last_checkpoint = 0; // s, wall time since the start of this part
+    double wall_before = 0;     // s, of the parts before a restart
+};
+
+/// The directory a run writes to: `-o`, or results/<case>, or with a number behind it if that holds a run already.
+/// @error core::InputError if `-o` names a directory that holds a run and neither --resume nor --force is given
+std::filesystem::path result_directory(const RunOptions& options);
+
+/// Create the directory, write resolved.toml and the first run.json.
+RunFiles open_files(const std::filesystem::path& directory, const io::Case& run_case);
+
+/// Whatever is due at the present step.
+void write_due(const solver::Problem& problem, const solver::Prepared& prepared, const solver::Derived& derived,
+               solver::State& state, RunFiles& files);
+
+/// One more frame of everything, at the end.
+void write_last_frames(const solver::Problem& problem, const solver::State& state, RunFiles& files);
+
+/// Write a checkpoint and bring run.json up to date.
+void write_checkpoint(const solver::Problem& problem, const solver::State& state, double wall_s, RunFiles& files);
+
+/// Bring run.json up to date.
+void write_record(const solver::Problem& problem, const solver::State& state, double wall_s, RunFiles& files);
+} // namespace app

@@ -1,0 +1,56 @@
+#include "app/stop_request.h"
+
+#include "core/error.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <sstream>
+
+namespace app
+{
+namespace
+{
+volatile std::sig_atomic_t requested = 0;
+
+extern "C" void request_stop(int signal)
+{
+    if (signal == SIGINT && requested != 0) std::_Exit(128 + SIGINT);
+    requested = 1;
+}
+} // namespace
+
+void catch_stop_signals()
+{
+    requested = 0;
+    for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) std::signal(signal, request_stop);
+}
+
+bool stop_requested()
+{
+    return requested != 0;
+}
+
+double parse_walltime(const std::string& text)
+{
+    const auto bad = [&] {
+        return core::InputError("--walltime '" + text +
+                                "': expected seconds (90), minutes (45min), hours (2h) or 3:50:00");
+    };
+    std::istringstream in(text);
+    double total = 0;
+    double part = 0;
+    if (!(in >> part) || part < 0) throw bad();
+    total = part;
+    while (in.peek() == ':') {
+        in.get();
+        if (!(in >> part) || part < 0) throw bad();
+        total = 60 * total + part;
+    }
+    std::string unit;
+    in >> unit;
+    if (unit == "min") return 60 * total;
+    if (unit == "h") return 3600 * total;
+    if (!unit.empty() && unit != "s") throw bad();
+    return total;
+}
+} // namespace app

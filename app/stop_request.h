@@ -1,0 +1,15 @@
+/// Ways to end a run early with a checkpoint: SIGINT, SIGTERM, SIGUSR1, and the wall-time limit.
+#pragma once
+
+#include <string>
+
+namespace app
+{
+/// From now on those signals only set a flag. A second SIGINT ends the program at once.
+void catch_stop_signals();
+bool stop_requested();
+
+/// Seconds of "90", "45min", "2h", "50:00" (mm:ss) or "3:50:00".
+/// @error core::InputError
+double parse_walltime(const std::string& text);
+} // namespace app

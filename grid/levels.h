@@ -1,0 +1,108 @@
+/// The nested grid: per level the leaves (8^3 blocks) that particles reach, their node tiles, and how levels touch.
+///
+/// OpenVDB mask trees decide which leaves exist (grid/topology.cpp); the values live here in contiguous padded tiles,
+/// one node = one cache line. A tile holds the 8^3 nodes its leaf owns plus one halo layer on the upper sides, so a
+/// particle kernel never looks at a neighbour. A node of a halo is owned by the neighbour leaf.
+///
+/// Levels: 0 is coarsest, spacing(l) = spacing0 / 2^l, all lattices share `origin`. Leaves are numbered level by level,
+/// inside a level in OpenVDB's tree order.
+#pragma once
+
+#include "core/real.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace grid
+{
+inline constexpr int leaf_side = 8;                                  // cells (and owned nodes) per axis
+inline constexpr int leaf_cells = leaf_side * leaf_side * leaf_side; // 512
+inline constexpr int tile_side = leaf_side + 1;                      // nodes per axis, trilinear support
+inline constexpr int tile_nodes = tile_side * tile_side * tile_side; // 729
+
+/// Position of a node in a tile; i, j, k in [0, 8]; z runs fastest as in OpenVDB leaves.
+constexpr int tile_index(int i, int j, int k)
+{
+    return (i * tile_side + j) * tile_side + k;
+}
+/// Position of a cell in its leaf; i, j, k in [0, 7].
+constexpr int cell_index(int i, int j, int k)
+{
+    return (i * leaf_side + j) * leaf_side + k;
+}
+
+/// What particles scatter to a node: one cache line.
+struct alignas(64) NodeSum
+{
+    Real mass;                    // g
+    std::array<Real, 3> momentum; // g mm/ms
+    std::array<Real, 3> force;    // N
+    Real spare;
+};
+
+/// What particles gather from a node: one cache line.
+struct alignas(64) NodeMotion
+{
+    std::array<Real, 3> velocity; // mm/ms, after the momentum update
+    Real spare0;
+    std::array<Real, 3> change; // mm/ms, velocity after minus before (MUSL pass: velocity mapped again)
+    Real spare1;
+};
+
+struct Leaf
+{
+    int level = 0;
+    Index3 origin = Index3::Zero();           // node index of the lower corner on its level, a multiple of 8
+    std::array<std::int32_t, 27> neighbour{}; // leaf number at offset (a, b, c) in {-1,0,1}^3 at 9a+3b+c+13, or -1
+};
+
+/// A node named by leaf and place in that leaf's tile, always the owned copy.
+struct NodeAddress
+{
+    std::int32_t leaf = -1;
+    std::int32_t node = -1;
+};
+
+/// Constrained interface nodes of one fine level and their masters one level coarser (methods.md A.3.2): rows of P
+/// (slave -> masters, weights 1, 1/2, 1/4) and the same entries by master (P^T), both in compressed rows.
+struct LevelInterface
+{
+    std::vector<NodeAddress> slave;         // [s]
+    std::vector<std::int32_t> row_start;    // [s + 1]
+    std::vector<NodeAddress> row_master;    // [entries]
+    std::vector<Real> row_weight;           // [entries] 1
+    std::vector<NodeAddress> master;        // [m]
+    std::vector<std::int32_t> column_start; // [m + 1]
+    std::vector<std::int32_t> column_slave; // [entries] index into slave
+    std::vector<Real> column_weight;        // [entries] 1
+};
+
+/// The mask trees; defined where OpenVDB may be included.
+struct Topology;
+
+struct Levels
+{
+    Real spacing0 = 0;          // mm
+    int count = 1;              // number of levels
+    Vec3 origin = Vec3::Zero(); // mm
+
+    std::vector<Leaf> leaves;
+    std::vector<std::int32_t> level_start; // [count + 1] leaves of level l are [level_start[l], level_start[l+1])
+    std::vector<std::uint8_t> cell_active; // [leaf][512] 1: leaf cell of the hierarchy (in C_l)
+    std::vector<std::uint32_t> cell_start; // [leaf * 512 + cell], + 1 entry: particle ranges by home cell
+    std::vector<NodeSum> sum;              // [leaf][729]
+    std::vector<NodeMotion> motion;        // [leaf][729]
+    std::vector<std::uint8_t> constrained; // [leaf][729] 1: owned node is a slave of the coarser level
+    std::vector<LevelInterface> interface; // [count - 1] between level l and l + 1
+
+    std::shared_ptr<const Topology> topology; // mask trees behind `leaves`
+
+    Real spacing(int level) const { return spacing0 / static_cast<Real>(1 << level); }
+    NodeSum* sums(std::size_t leaf) { return sum.data() + leaf * tile_nodes; }
+    const NodeSum* sums(std::size_t leaf) const { return sum.data() + leaf * tile_nodes; }
+    NodeMotion* motions(std::size_t leaf) { return motion.data() + leaf * tile_nodes; }
+    const NodeMotion* motions(std::size_t leaf) const { return motion.data() + leaf * tile_nodes; }
+};
+} // namespace grid

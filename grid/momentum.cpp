@@ -1,0 +1,72 @@
+#include "grid/momentum.h"
+
+#include "core/parallel.h"
+
+namespace grid
+{
+namespace
+{
+/// `fix(motion, axis)` for every node of the leaf that lies on a wall.
+template <class Fix>
+void fix_walls(const std::vector<WallPlane>& walls, const Leaf& leaf, NodeMotion* motion, const Fix& fix)
+{
+    for (const WallPlane& wall : walls) {
+        const int at = (wall.node0 << leaf.level) - leaf.origin[wall.axis];
+        if (at < 0 || at >= leaf_side) continue;
+        for (int a = 0; a < leaf_side; ++a)
+            for (int b = 0; b < leaf_side; ++b) {
+                int node[3];
+                node[wall.axis] = at;
+                node[(wall.axis + 1) % 3] = a;
+                node[(wall.axis + 2) % 3] = b;
+                fix(motion[tile_index(node[0], node[1], node[2])], static_cast<std::size_t>(wall.axis));
+            }
+    }
+}
+
+template <class Visit>
+void for_owned_nodes(const Visit& visit)
+{
+    for (int i = 0; i < leaf_side; ++i)
+        for (int j = 0; j < leaf_side; ++j)
+            for (int k = 0; k < leaf_side; ++k) visit(tile_index(i, j, k));
+}
+} // namespace
+
+void advance_momentum(const std::vector<WallPlane>& walls, const Vec3& gravity, const std::vector<Real>& mass_cutoff,
+                      Real dt, Levels& levels)
+{
+    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+        const Leaf& leaf = levels.leaves[n];
+        const Real cutoff = mass_cutoff[static_cast<std::size_t>(leaf.level)];
+        const NodeSum* sum = levels.sums(n);
+        NodeMotion* motion = levels.motions(n);
+        for_owned_nodes([&](int i) {
+            const NodeSum& s = sum[i];
+            NodeMotion& m = motion[i];
+            const Real per_mass = s.mass > cutoff ? Real(1) / s.mass : Real(0);
+            const Real moves = s.mass > cutoff ? dt : Real(0);
+            for (std::size_t a = 0; a < 3; ++a) {
+                m.change[a] = moves * (s.force[a] * per_mass + gravity[static_cast<int>(a)]);
+                m.velocity[a] = s.momentum[a] * per_mass + m.change[a];
+            }
+        });
+        fix_walls(walls, leaf, motion, [](NodeMotion& m, std::size_t a) { m.velocity[a] = m.change[a] = 0; });
+    });
+}
+
+void remap_velocity(const std::vector<WallPlane>& walls, const std::vector<Real>& mass_cutoff, Levels& levels)
+{
+    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+        const Leaf& leaf = levels.leaves[n];
+        const Real cutoff = mass_cutoff[static_cast<std::size_t>(leaf.level)];
+        const NodeSum* sum = levels.sums(n);
+        NodeMotion* motion = levels.motions(n);
+        for_owned_nodes([&](int i) {
+            const Real per_mass = sum[i].mass > cutoff ? Real(1) / sum[i].mass : Real(0);
+            for (std::size_t a = 0; a < 3; ++a) motion[i].change[a] = sum[i].momentum[a] * per_mass;
+        });
+        fix_walls(walls, leaf, motion, [](NodeMotion& m, std::size_t a) { m.change[a] = 0; });
+    });
+}
+} // namespace grid

@@ -1,0 +1,26 @@
+/// The momentum update on the nodes, symplectic Euler, with symmetry planes.
+///
+/// v = p / m,  v+ = v + dt (f / m + g);  normal components on symmetry planes are zero before and after.
+#pragma once
+
+#include "grid/levels.h"
+
+namespace grid
+{
+/// A coordinate plane of nodes with zero normal velocity.
+struct WallPlane
+{
+    int axis = 2;
+    int node0 = 0; // index of the plane's nodes on level 0; 2^l node0 on level l
+};
+
+/// @param gravity      mm/ms^2
+/// @param mass_cutoff  g, per level: lighter nodes do not move
+/// @param dt           ms
+/// @param levels       reads assembled and restricted sums; writes motion of owned nodes, slaves excluded
+void advance_momentum(const std::vector<WallPlane>& walls, const Vec3& gravity, const std::vector<Real>& mass_cutoff,
+                      Real dt, Levels& levels);
+
+/// Replace `change` by the velocity p / m of momentum mapped again from updated particles (MUSL), walls applied.
+void remap_velocity(const std::vector<WallPlane>& walls, const std::vector<Real>& mass_cutoff, Levels& levels);
+} // namespace grid

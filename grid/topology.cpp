@@ -1,0 +1,125 @@
+/// Leaves come from OpenVDB mask trees: `cells` marks C_l, `blocks` holds a tree leaf for every 8^3 block with a node
+/// that some cell of C_l has as a corner; the running leaf number sits in the tree leaf's transient data.
+#include "grid/topology.h"
+
+#include "grid/interface.h"
+
+#include <openvdb/openvdb.h>
+
+namespace grid
+{
+struct Topology
+{
+    std::vector<openvdb::MaskTree> cells;
+    std::vector<openvdb::MaskTree> blocks;
+};
+
+namespace
+{
+openvdb::Coord coord(const Index3& i)
+{
+    return {i[0], i[1], i[2]};
+}
+
+void number_leaves(Topology& topology, Levels& levels)
+{
+    levels.leaves.clear();
+    levels.level_start.assign(1, 0);
+    for (int l = 0; l < levels.count; ++l) {
+        for (auto it = topology.blocks[static_cast<std::size_t>(l)].beginLeaf(); it; ++it) {
+            it->setTransientData(static_cast<openvdb::Index32>(levels.leaves.size()));
+            const openvdb::Coord o = it->origin();
+            Leaf leaf;
+            leaf.level = l;
+            leaf.origin = {o.x(), o.y(), o.z()};
+            levels.leaves.push_back(leaf);
+        }
+        levels.level_start.push_back(static_cast<std::int32_t>(levels.leaves.size()));
+    }
+}
+
+void find_neighbours(Levels& levels)
+{
+    for (Leaf& leaf : levels.leaves)
+        for (int n = 0; n < 27; ++n) {
+            const Index3 offset(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
+            leaf.neighbour[static_cast<std::size_t>(n)] = leaf_of(levels, leaf.level, leaf.origin + 8 * offset);
+        }
+}
+
+void allocate_tiles(Levels& levels)
+{
+    const std::size_t nodes = levels.leaves.size() * tile_nodes;
+    levels.sum.assign(nodes, NodeSum{});
+    levels.motion.assign(nodes, NodeMotion{});
+    levels.cell_start.clear();
+}
+
+void mark_active_cells(const Topology& topology, Levels& levels)
+{
+    levels.cell_active.assign(levels.leaves.size() * leaf_cells, 0);
+    for (std::size_t n = 0; n < levels.leaves.size(); ++n) {
+        const Leaf& leaf = levels.leaves[n];
+        const auto* mask = topology.cells[static_cast<std::size_t>(leaf.level)].probeConstLeaf(coord(leaf.origin));
+        if (mask == nullptr) continue;
+        // The mask's bit order, z fastest, is the order of cell_index.
+        for (auto it = mask->cbeginValueOn(); it; ++it) levels.cell_active[n * leaf_cells + it.pos()] = 1;
+    }
+}
+} // namespace
+
+std::int32_t leaf_of(const Levels& levels, int level, const Index3& node)
+{
+    const auto* leaf = levels.topology->blocks[static_cast<std::size_t>(level)].probeConstLeaf(coord(node));
+    return leaf == nullptr ? -1 : static_cast<std::int32_t>(leaf->transientData());
+}
+
+void build(const std::vector<CellKey>& occupied, Levels& levels)
+{
+    auto topology = std::make_shared<Topology>();
+    topology->cells.resize(static_cast<std::size_t>(levels.count));
+    topology->blocks.resize(static_cast<std::size_t>(levels.count));
+    for (const CellKey& key : occupied) {
+        const auto l = static_cast<std::size_t>(key.level);
+        topology->cells[l].setValueOn(coord(key.cell));
+        for (int corner = 0; corner < 8; ++corner)
+            topology->blocks[l].touchLeaf(coord(key.cell + Index3(corner >> 2, corner >> 1 & 1, corner & 1)));
+    }
+    levels.topology = topology;
+    number_leaves(*topology, levels);
+    find_neighbours(levels);
+    allocate_tiles(levels);
+    mark_active_cells(*topology, levels);
+    build_interfaces(levels);
+}
+
+namespace
+{
+/// Leaf cells of the hierarchy, in storage order.
+std::vector<CellKey> active_cells(const Levels& levels)
+{
+    std::vector<CellKey> cells;
+    for (std::size_t n = 0; n < levels.leaves.size(); ++n)
+        for (int c = 0; c < leaf_cells; ++c)
+            if (levels.cell_active[n * leaf_cells + static_cast<std::size_t>(c)] != 0)
+                cells.push_back({levels.leaves[n].level, levels.leaves[n].origin + Index3(c / 64, c / 8 % 8, c % 8)});
+    return cells;
+}
+} // namespace
+
+void restore(Levels& levels)
+{
+    const std::vector<std::uint32_t> cell_start = std::move(levels.cell_start);
+    build(active_cells(levels), levels);
+    levels.cell_start = cell_start;
+}
+
+Refinement refinement_of_cells(const Levels& levels)
+{
+    Refinement refinement(levels.count);
+    for (const CellKey& key : active_cells(levels))
+        if (key.level > 0)
+            refinement.subdivide(key.level - 1, Index3(key.cell[0] >> 1, key.cell[1] >> 1, key.cell[2] >> 1));
+    return refinement;
+}
+} // namespace grid

@@ -1,0 +1,27 @@
+/// Build the leaves, tiles and level interfaces for a set of occupied leaf cells.
+#pragma once
+
+#include "grid/levels.h"
+#include "grid/refinement.h"
+
+#include <vector>
+
+namespace grid
+{
+/// Make `levels` hold exactly the leaves whose nodes the occupied cells touch.
+///
+/// @param occupied  leaf cells of the hierarchy that hold particles, any order, repeats allowed
+/// @param levels    reads spacing0, count, origin; writes leaves, level_start, cell_active, topology, sum, motion,
+///                  constrained, interface. cell_start is left empty: only who orders the particles knows it.
+/// @cost  serial in the number of cells; called when the topology changes, never per step
+void build(const std::vector<CellKey>& occupied, Levels& levels);
+
+/// The same from stored leaves and active cells (leaf level and origin, level_start, cell_active): after a restart.
+void restore(Levels& levels);
+
+/// Subdivided cells implied by the active ones: every ancestor of an active cell.
+Refinement refinement_of_cells(const Levels& levels);
+
+/// Number of the leaf whose owned nodes (and cells) include `node` on `level`, or -1.
+std::int32_t leaf_of(const Levels& levels, int level, const Index3& node);
+} // namespace grid

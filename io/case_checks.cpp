@@ -1,0 +1,211 @@
+#include "io/case_draft.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace io
+{
+namespace
+{
+bool in_a_body(const Draft& draft, const Vec3& point)
+{
+    return std::any_of(draft.problem.bodies.begin(), draft.problem.bodies.end(),
+                       [&](const solver::Body& body) { return body.shape.contains(point); });
+}
+
+geometry::Bounds body_bounds(const Draft& draft)
+{
+    geometry::Bounds all = draft.problem.bodies.front().shape.bounds();
+    for (const solver::Body& body : draft.problem.bodies) {
+        const geometry::Bounds own = body.shape.bounds();
+        all.lower = all.lower.cwiseMin(own.lower);
+        all.upper = all.upper.cwiseMax(own.upper);
+    }
+    return all;
+}
+
+/// Whether any sample of a lattice over the part of `bounds` that bodies can fill fulfils `wanted`; the lattice is as
+/// fine as `step`, but never more than about a million points.
+template <class Wanted>
+bool any_sample(const Draft& draft, const geometry::Bounds& bounds, Real step, const Wanted& wanted)
+{
+    const geometry::Bounds bodies = body_bounds(draft);
+    const Vec3 lower = bounds.lower.cwiseMax(bodies.lower);
+    const Vec3 size = bounds.upper.cwiseMin(bodies.upper) - lower;
+    if ((size.array() <= 0).any()) return false;
+    step = std::max(step, std::cbrt(size.prod() / 1e6));
+    Index3 count;
+    for (int a = 0; a < 3; ++a) count[a] = std::max(1, static_cast<int>(std::ceil(size[a] / step)));
+    for (int i = 0; i < count[0]; ++i)
+        for (int j = 0; j < count[1]; ++j)
+            for (int k = 0; k < count[2]; ++k) {
+                const Vec3 place(i + 0.5, j + 0.5, k + 0.5);
+                const Vec3 share = place.cwiseQuotient(count.cast<Real>());
+                if (wanted(Vec3(lower + size.cwiseProduct(share)))) return true;
+            }
+    return false;
+}
+
+void check_particles_per_cell(Draft& draft)
+{
+    const int count = draft.problem.grid.particles_per_cell;
+    const int side = static_cast<int>(std::lround(std::cbrt(count)));
+    const Node* grid = draft.root.find("grid");
+    const Node* value = grid->find("particles_per_cell");
+    const Place& place = value ? value->place : grid->place;
+    if (side * side * side != count)
+        draft.diagnostics.error(place, fmt::format("particles_per_cell = {} is not a cube number", count),
+                                "expected 8, 27 or 64 (1 for tests)");
+    else if (count < 4)
+        draft.diagnostics.warning(place, fmt::format("{} particle per cell integrates badly", count),
+                                  "8 is the usual choice");
+}
+
+/// Highest level the zones ask for at a point.
+int level_at(const Draft& draft, const Vec3& point)
+{
+    int level = 0;
+    for (const solver::Zone& zone : draft.problem.zones)
+        if (zone.shape.distance(point) < zone.margin) level = std::max(level, zone.level);
+    return level;
+}
+
+void check_zones(Draft& draft)
+{
+    const solver::Problem& problem = draft.problem;
+    for (std::size_t i = 0; i < problem.zones.size(); ++i) {
+        const solver::Zone& zone = problem.zones[i];
+        if (!draft.zones[i].sound) continue;
+        const Real spacing = problem.grid.cell / static_cast<Real>(1 << zone.level);
+        const geometry::Shape region = geometry::grown(zone.shape, zone.margin);
+        if (!any_sample(draft, region.bounds(), spacing,
+                        [&](const Vec3& p) { return region.contains(p) && in_a_body(draft, p); }))
+        {
+            draft.diagnostics.error(draft.zones[i].place, fmt::format("zone '{}' lies outside every body", zone.name),
+                                    "refines nothing");
+            continue;
+        }
+        // Two levels up, the automatic 2:1 grading inserts cells nobody asked for.
+        if (zone.level < 2) continue;
+        const Real ring = 2 * spacing;
+        const bool jump = any_sample(draft, geometry::grown(region, ring).bounds(), spacing, [&](const Vec3& p) {
+            const Real distance = region.distance(p);
+            return distance > 0 && distance < ring && level_at(draft, p) < zone.level - 1 && in_a_body(draft, p);
+        });
+        if (jump)
+            draft.diagnostics.warning(
+                draft.zones[i].place,
+                fmt::format("level jump above 1 at the rim of zone '{}' (level {})", zone.name, zone.level),
+                fmt::format("the 2:1 grading adds cells; a zone of level {} around it decides where", zone.level - 1));
+    }
+    for (int level = 1; level < problem.grid.levels; ++level)
+        if (std::none_of(problem.zones.begin(), problem.zones.end(), [&](const auto& z) { return z.level >= level; })) {
+            draft.diagnostics.warning(draft.grid.place, fmt::format("no zone uses level {}", level));
+            break;
+        }
+}
+
+void check_symmetry(Draft& draft)
+{
+    const solver::Problem& problem = draft.problem;
+    for (std::size_t i = 0; i < problem.symmetry.size(); ++i) {
+        if (!draft.symmetry[i].sound) continue;
+        const solver::SymmetryPlane& plane = problem.symmetry[i];
+        const char axis = "xyz"[plane.axis];
+        const Real node = (plane.at - problem.grid.origin[plane.axis]) / problem.grid.cell;
+        if (std::abs(node - std::round(node)) > 1e-9 * std::max(Real(1), std::abs(node)))
+            draft.diagnostics.error(
+                draft.symmetry[i].place,
+                fmt::format("the symmetry plane {} = {} is not on a node plane of level 0", axis, plane.at),
+                fmt::format("nearest: {}", problem.grid.origin[plane.axis] + std::round(node) * problem.grid.cell));
+        for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
+            const geometry::Bounds bounds = problem.bodies[b].shape.bounds();
+            const Real tolerance = 1e-9 * problem.grid.cell;
+            if (draft.bodies[b].sound && bounds.lower[plane.axis] < plane.at - tolerance &&
+                bounds.upper[plane.axis] > plane.at + tolerance)
+                draft.diagnostics.error(draft.bodies[b].place,
+                                        fmt::format("body '{}' lies on both sides of the symmetry plane {} = {}",
+                                                    problem.bodies[b].name, axis, plane.at),
+                                        "model one side only");
+        }
+    }
+}
+
+Real slowest_wave(const solver::Problem& problem)
+{
+    Real speed = std::numeric_limits<Real>::infinity();
+    for (const material::Material& material : problem.materials)
+        speed = std::min(speed, std::sqrt(material.elastic.wave_modulus() / material.elastic.density));
+    return speed;
+}
+
+void check_loads(Draft& draft, bool materials_sound)
+{
+    const solver::Problem& problem = draft.problem;
+    for (std::size_t i = 0; i < problem.loads.size(); ++i) {
+        const solver::Load& load = problem.loads[i];
+        if (!draft.loads[i].sound) continue;
+        // A pin holds the wall of its hole: material within one cell of it.
+        const bool pin = load.kind == solver::Load::Kind::pin;
+        const geometry::Shape reach = pin ? geometry::grown(load.region, problem.grid.cell) : load.region;
+        if (!any_sample(draft, reach.bounds(), problem.grid.cell / 4,
+                        [&](const Vec3& p) { return reach.contains(p) && in_a_body(draft, p); }))
+            draft.diagnostics.error(draft.loads[i].place, fmt::format("load '{}' touches no body", load.name),
+                                    pin ? "the pin has no wall within one cell" : "no material in its region");
+        if (pin && in_a_body(draft, load.centre))
+            draft.diagnostics.error(draft.loads[i].place,
+                                    fmt::format("the centre of pin '{}' lies in a body, not in a hole", load.name));
+        Real speed = 0;
+        for (const std::optional<Real>& component : load.velocity) speed += std::pow(component.value_or(0), 2);
+        speed = std::sqrt(speed);
+        if (materials_sound && speed > 0.01 * slowest_wave(problem))
+            draft.diagnostics.warning(draft.loads[i].place,
+                                      fmt::format("load '{}' moves at {:.3g} mm/ms, {:.1f} % of the slowest wave speed",
+                                                  load.name, speed, 100 * speed / slowest_wave(problem)),
+                                      "inertia will show in the forces");
+    }
+}
+
+void check_gauge(Draft& draft)
+{
+    const solver::Problem& problem = draft.problem;
+    if (!problem.gauge) {
+        if (draft.end.sound && std::isfinite(problem.end.cod))
+            draft.diagnostics.error(draft.end.place, "the end by opening needs a gauge", "add [gauge.cod]");
+        if (draft.every_cod.file >= 0)
+            draft.diagnostics.error(draft.every_cod, "output by opening needs a gauge", "add [gauge.cod]");
+        return;
+    }
+    if (!draft.gauge.sound) return;
+    for (const auto& [name, point] : {std::pair("upper", problem.gauge->upper), {"lower", problem.gauge->lower}}) {
+        Real distance = std::numeric_limits<Real>::infinity();
+        for (const solver::Body& body : problem.bodies) distance = std::min(distance, body.shape.distance(point));
+        // Points on a face or a symmetry plane are fine, and so is the particle nearest to them.
+        if (distance > 0.5 * problem.grid.cell)
+            draft.diagnostics.error(draft.root.find("gauge")->find("cod")->find(name)->place,
+                                    fmt::format("gauge point '{}' lies {:.3g} mm outside every body", name, distance),
+                                    "choose a point of the material");
+    }
+}
+
+bool all_sound(const std::vector<Origin>& origins)
+{
+    return std::all_of(origins.begin(), origins.end(), [](const Origin& origin) { return origin.sound; });
+}
+} // namespace
+
+void check_case(Draft& draft)
+{
+    if (!draft.grid.sound) return;
+    check_particles_per_cell(draft);
+    check_symmetry(draft);
+    // Whether something lies in a body can only be told when every body is known.
+    if (draft.problem.bodies.empty() || !all_sound(draft.bodies)) return;
+    check_zones(draft);
+    check_loads(draft, all_sound(draft.materials) && !draft.materials.empty());
+    check_gauge(draft);
+}
+} // namespace io

@@ -1,0 +1,67 @@
+#include "io/case_draft.h"
+
+#include <fmt/format.h>
+
+namespace io
+{
+namespace
+{
+/// The value at a path of names; the tables that lead to it are created on the way, it itself is `fresh` if new.
+Node& reach(Node& root, const std::vector<std::string>& path, Node fresh)
+{
+    Node* place = &root;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        Node* next = place->find(path[i]);
+        if (!next) {
+            next = &place->set(path[i], i + 1 == path.size() ? std::move(fresh) : Node{});
+            next->section = true;
+        }
+        place = next;
+    }
+    return *place;
+}
+} // namespace
+
+const solver::Feature* find_feature(Draft& draft, const std::string& name, const Place& place)
+{
+    std::vector<std::string> names;
+    for (const solver::Feature& feature : draft.problem.features) {
+        if (feature.name == name) return &feature;
+        names.push_back(feature.name);
+    }
+    unknown_name(draft, place, "feature", name, names);
+    return nullptr;
+}
+
+void unknown_name(Draft& draft, const Place& place, std::string_view kind, std::string_view name,
+                  const std::vector<std::string>& candidates)
+{
+    const std::string near = nearest_name(name, candidates);
+    draft.diagnostics.error(place, fmt::format("there is no {} '{}'", kind, name),
+                            near.empty() ? "" : fmt::format("did you mean '{}'?", near),
+                            {candidates.empty() ? fmt::format("the case has no {}s", kind)
+                                                : fmt::format("{}s here: {}", kind, joined(candidates))});
+}
+
+void for_each_item(Draft& draft, const Node* list, const std::string& name,
+                   const std::function<void(const Node& item)>& visit)
+{
+    if (!list) return;
+    if (list->kind != Node::Kind::list) {
+        draft.diagnostics.error(list->place, fmt::format("'{}' must be an array of tables", name),
+                                fmt::format("write [[{}]]", name));
+        return;
+    }
+    for (const Node& item : list->items) visit(item);
+}
+
+void keep(Draft& draft, const std::vector<std::string>& path, Node section)
+{
+    reach(draft.resolved, path, {}) = std::move(section);
+}
+
+void keep_item(Draft& draft, const std::vector<std::string>& path, Node section)
+{
+    reach(draft.resolved, path, list_of({})).items.push_back(std::move(section));
+}
+} // namespace io

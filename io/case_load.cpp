@@ -1,0 +1,87 @@
+#include "io/case_draft.h"
+
+#include <fmt/format.h>
+
+namespace io
+{
+namespace
+{
+solver::Ramp read_ramp(Draft& draft, SectionReader& load)
+{
+    solver::Ramp ramp{solver::Ramp::Kind::step, 0};
+    const Node* value = load.find("ramp");
+    if (!value) return ramp;
+    SectionReader section(draft.diagnostics, value, "load.ramp", load.path() + ".ramp", value->place);
+    ramp.kind = section.choice<solver::Ramp::Kind>("kind");
+    ramp.time = section.real("time");
+    const bool step = ramp.kind == solver::Ramp::Kind::step;
+    if (section.sound() && step == (ramp.time > 0))
+        section.error("time", step ? "a step has no duration" : "this ramp needs a time > 0",
+                      "such as time = \"0.05 ms\"");
+    section.finish();
+    Node resolved = section.resolved();
+    resolved.section = false;
+    load.record("ramp", std::move(resolved));
+    return ramp;
+}
+
+void read_pin(Draft& draft, SectionReader& load, solver::Load& out)
+{
+    const Node* value = load.find("pin");
+    SectionReader section(draft.diagnostics, value, "load.pin", load.path() + ".pin", value->place);
+    out.kind = solver::Load::Kind::pin;
+    out.axis = section.axis("axis");
+    const std::optional<std::string> feature_name = section.optional_text("feature");
+    const std::optional<Vec3> centre = section.optional_vector("centre");
+    const std::optional<Real> radius = section.optional_real("radius");
+    const bool by_feature = section.has("feature"), by_numbers = section.has("centre") && section.has("radius");
+    if (by_feature == by_numbers || (by_feature && (section.has("centre") || section.has("radius"))))
+        section.error("feature", "a pin is given by a feature, or by centre and radius");
+    else if (by_numbers && centre && radius) {
+        out.centre = *centre;
+        out.region = round_hole(*centre, out.axis, *radius);
+    } else if (feature_name)
+        if (const solver::Feature* feature = find_feature(draft, *feature_name, section.place("feature"))) {
+            out.centre = feature->centre;
+            out.region = feature->shape;
+        }
+    section.finish();
+    Node resolved = section.resolved();
+    resolved.section = false;
+    load.record("pin", std::move(resolved));
+}
+
+void read_load(Draft& draft, const Entry& entry)
+{
+    SectionReader section(draft.diagnostics, &entry.value, "load", "load." + entry.key, entry.place);
+    solver::Load load;
+    load.name = entry.key;
+    if (section.has("region") == section.has("pin"))
+        section.error("region", fmt::format("[{}] needs either a region or a pin", section.path()));
+    else if (section.has("pin"))
+        read_pin(draft, section, load);
+    else
+        load.region = read_shape(draft, section, "region");
+    load.velocity = section.velocity("velocity", section.optional_axis("axis"));
+    load.ramp = read_ramp(draft, section);
+    if (section.sound() && !load.velocity[0] && !load.velocity[1] && !load.velocity[2])
+        section.error("velocity", fmt::format("load '{}' prescribes nothing", load.name),
+                      "every component is \"free\"");
+    section.finish();
+    draft.loads.push_back({section.has("pin") ? section.place("pin") : section.place("region"), section.sound()});
+    draft.problem.loads.push_back(std::move(load));
+    keep(draft, {"load", entry.key}, section.resolved());
+}
+} // namespace
+
+void read_loads(Draft& draft)
+{
+    const Node* loads = draft.root.find("load");
+    if (!loads) return;
+    if (loads->kind != Node::Kind::table) {
+        draft.diagnostics.error(loads->place, "loads have names", "write [load.NAME]");
+        return;
+    }
+    for (const Entry& entry : loads->entries) read_load(draft, entry);
+}
+} // namespace io

@@ -1,0 +1,52 @@
+/// Checkpoints: checkpoint/ck_NNNNNN.h5 (N = step) and `latest`, a text file with the name of the newest.
+///
+/// A checkpoint holds everything a bitwise continuation needs: all of solver::State and of grid::Levels the choice of
+/// leaves and cells; node values, neighbours, tiles and interfaces are rebuilt by the reader. Values are exact,
+/// uncompressed and protected by checksums. It also holds the text of resolved.toml, so that only the same case goes
+/// on.
+#pragma once
+
+#include "solver/state.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace io
+{
+/// What a checkpoint must agree with.
+struct CheckpointCase
+{
+    std::string resolved; // text of resolved.toml
+    std::string version;  // of the program
+};
+
+/// 64-bit FNV-1a hash of a text.
+std::uint64_t text_hash(std::string_view text);
+
+/// Write a checkpoint, point `latest` at it and remove all but the newest `keep` up to its step. Later ones, left over
+/// from another run in this directory, go too.
+///
+/// @return path of the checkpoint
+/// @error FileError; earlier checkpoints are then still there
+std::filesystem::path write_checkpoint(const std::filesystem::path& directory, const solver::State& state,
+                                       const CheckpointCase& of_case, int keep);
+
+/// Read one checkpoint.
+///
+/// Of `levels` it fills spacing0, count, origin, leaves (level, origin), level_start, cell_active and cell_start.
+/// @error InputError if it belongs to another case or was written by another layout of the program
+/// @error FileError if it is missing, truncated or damaged
+solver::State read_checkpoint(const std::filesystem::path& path, const CheckpointCase& of_case);
+
+/// Read the checkpoint `latest` names or, if it cannot be read, the newest before it that can.
+///
+/// Whatever is skipped is passed to `warn` as a sentence.
+///
+/// @return nothing if there is no checkpoint at all
+/// @error InputError as read_checkpoint; FileError if there are checkpoints and none can be read
+std::optional<solver::State> resume(const std::filesystem::path& directory, const CheckpointCase& of_case,
+                                    const std::function<void(const std::string&)>& warn);
+} // namespace io

@@ -1,0 +1,48 @@
+/// history.csv: one line per output with the forces, the opening and the energies; units stand in the header.
+///
+/// Every line reaches the operating system at once, so a running case can be plotted and a killed one loses nothing.
+#pragma once
+
+#include "solver/state.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace io
+{
+/// Column names for that many levels, without the end of line.
+std::string history_header(int levels);
+
+/// One line in the order of the header: numbers with 10 significant digits, without the end of line.
+std::string history_text(const solver::HistoryLine& line);
+
+/// All complete lines of a history file; the part of an energy that is not a column stays 0.
+/// @error FileError if the file cannot be read or its header or a line is not one of these
+std::vector<solver::HistoryLine> read_history(const std::filesystem::path& path);
+
+/// The open history file of a run.
+class HistoryFile
+{
+public:
+    /// Start a new file, replacing an old one.
+    HistoryFile(const std::filesystem::path& path, int levels);
+    /// Go on with an existing file after `step`: later lines, and one cut short, are dropped. Without a file: a new
+    /// one.
+    HistoryFile(const std::filesystem::path& path, int levels, std::int64_t step);
+    ~HistoryFile();
+    HistoryFile(const HistoryFile&) = delete;
+    HistoryFile& operator=(const HistoryFile&) = delete;
+
+    /// Append one line.
+    /// @error FileError
+    void append(const solver::HistoryLine& line);
+
+private:
+    void open();
+
+    std::filesystem::path path_;
+    int descriptor_ = -1;
+};
+} // namespace io

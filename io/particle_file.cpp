@@ -1,0 +1,151 @@
+#include "io/particle_file.h"
+
+#include "core/contract.h"
+#include "core/error.h"
+#include "io/hdf5.h"
+#include "io/particle_columns.h"
+#include "io/particle_fields.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace io
+{
+namespace
+{
+constexpr const char* series_name = "particles.hdf.series";
+constexpr std::uint8_t vtk_vertex = 1; // VTK cell type
+
+template <class T>
+void write_fields(const particles::Particles& particles, const grid::Levels& levels, const ParticleFileOptions& options,
+                  Hdf5Writer& file)
+{
+    const auto cast = [](const std::vector<Real>& values) { return std::vector<T>(values.begin(), values.end()); };
+    file.dataset<T>("/VTKHDF/Points", cast(particle_points(particles)), 3);
+    for (const std::string& name : options.fields) {
+        const ParticleField* field = find_particle_field(name);
+        CLEAVE_EXPECTS(field != nullptr);
+        const std::string path = "/VTKHDF/PointData/" + name;
+        const std::vector<Real> values = particle_column(*field, particles, levels);
+        if (field->integer)
+            file.dataset<std::int32_t>(path, std::vector<std::int32_t>(values.begin(), values.end()));
+        else
+            file.dataset<T>(path, cast(values), field->components);
+        file.attribute(path, "units", field->unit);
+    }
+}
+
+/// One vertex per particle. Connectivity 0, 1, 2, ... compresses to almost nothing.
+void write_cells(std::int64_t count, Hdf5Writer& file)
+{
+    std::vector<std::int64_t> index(static_cast<std::size_t>(count) + 1);
+    std::iota(index.begin(), index.end(), std::int64_t(0));
+    const std::span<const std::int64_t> offsets(index);
+    for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
+        file.dataset<std::int64_t>(std::string("/VTKHDF/") + name, std::span(&count, 1));
+    file.dataset<std::int64_t>("/VTKHDF/Connectivity", offsets.first(index.size() - 1));
+    file.dataset<std::int64_t>("/VTKHDF/Offsets", offsets);
+    file.dataset<std::uint8_t>("/VTKHDF/Types", std::vector<std::uint8_t>(index.size() - 1, vtk_vertex));
+}
+
+struct SeriesEntry
+{
+    std::string name;
+    Real time; // ms
+};
+
+std::vector<SeriesEntry> read_series(const std::filesystem::path& path)
+{
+    std::vector<SeriesEntry> entries;
+    if (!std::filesystem::exists(path)) return entries;
+    try {
+        const auto series = nlohmann::json::parse(read_file(path));
+        for (const auto& entry : series.at("files"))
+            entries.push_back({entry.at("name"), entry.at("time")});
+    } catch (const nlohmann::json::exception& error) {
+        throw core::FileError("cannot read '" + path.string() + "': " + error.what());
+    }
+    return entries;
+}
+
+void write_series(const std::filesystem::path& path, const std::vector<SeriesEntry>& entries)
+{
+    nlohmann::ordered_json series{{"file-series-version", "1.0"}, {"files", nlohmann::ordered_json::array()}};
+    for (const SeriesEntry& entry : entries) series["files"].push_back({{"name", entry.name}, {"time", entry.time}});
+    write_file(path, series.dump(1) + "\n");
+}
+
+/// The series up to and without `name`, in order of time: rewriting a frame moves nothing else.
+void enter_frame(const std::filesystem::path& path, const SeriesEntry& entry)
+{
+    std::vector<SeriesEntry> entries = read_series(path);
+    std::erase_if(entries, [&](const SeriesEntry& old) { return old.name == entry.name; });
+    entries.push_back(entry);
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const SeriesEntry& a, const SeriesEntry& b) { return a.time < b.time; });
+    write_series(path, entries);
+}
+} // namespace
+
+std::filesystem::path write_particle_frame(const std::filesystem::path& directory,
+                                           const particles::Particles& particles, const grid::Levels& levels,
+                                           const solver::Clock& clock, const ParticleFileOptions& options)
+{
+    make_directory(directory);
+    const std::string name = fmt::format("p_{:06}.hdf", clock.step);
+    Hdf5Writer file(directory / name);
+    file.attribute("/", "time", clock.time);
+    file.attribute("/", "step", clock.step);
+    file.attribute("/", "units", std::string_view("mm-g-ms"));
+    file.attribute("/", "version", std::string_view(options.version));
+    const std::vector<Real> side = particle_sides(particles, levels, options.particles_per_cell);
+    file.dataset<float>("/particle_side", std::vector<float>(side.begin(), side.end()));
+
+    constexpr std::array<std::int64_t, 2> format_version{1, 0};
+    file.group("/VTKHDF");
+    file.attribute<std::int64_t>("/VTKHDF", "Version", std::span(format_version));
+    file.attribute("/VTKHDF", "Type", std::string_view("UnstructuredGrid"));
+    file.group("/VTKHDF/PointData");
+    write_cells(static_cast<std::int64_t>(particles.size()), file);
+    if (options.precision == Precision::f32)
+        write_fields<float>(particles, levels, options, file);
+    else
+        write_fields<double>(particles, levels, options, file);
+    file.commit();
+
+    enter_frame(directory / series_name, {name, clock.time});
+    return directory / name;
+}
+
+void rewind_particle_series(const std::filesystem::path& directory, Real time)
+{
+    const std::filesystem::path path = directory / series_name;
+    if (!std::filesystem::exists(path)) return;
+    std::vector<SeriesEntry> entries = read_series(path);
+    std::erase_if(entries, [&](const SeriesEntry& entry) { return entry.time > time; });
+    write_series(path, entries);
+}
+
+std::optional<ParticleFrame> read_last_particle_frame(const std::filesystem::path& directory,
+                                                      const std::vector<std::string>& fields)
+{
+    const std::vector<SeriesEntry> entries = read_series(directory / series_name);
+    if (entries.empty()) return {};
+    const Hdf5Reader file(directory / entries.back().name);
+    ParticleFrame frame;
+    frame.time = file.attribute<double>("/", "time").at(0);
+    frame.step = file.attribute<std::int64_t>("/", "step").at(0);
+    const std::vector<float> points = file.dataset<float>("/VTKHDF/Points");
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t i = axis; i < points.size(); i += 3) frame.position[axis].push_back(points[i]);
+    frame.side = file.dataset<float>("/particle_side");
+    for (const std::string& name : fields)
+        if (const std::string path = "/VTKHDF/PointData/" + name; file.exists(path))
+            frame.scalar[name] = file.dataset<float>(path);
+    return frame;
+}
+} // namespace io

@@ -1,0 +1,12 @@
+/// Memory of this process as the operating system sees it.
+#pragma once
+
+#include <cstdint>
+
+namespace io
+{
+/// Resident memory now [byte]; 0 if the system does not tell.
+std::uint64_t resident_bytes();
+/// Largest resident memory since the start of the process [byte].
+std::uint64_t peak_resident_bytes();
+} // namespace io

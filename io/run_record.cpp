@@ -1,0 +1,128 @@
+#include "io/run_record.h"
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace io
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+Json to_json(Real value)
+{
+    return std::isfinite(value) ? Json(value) : Json();
+}
+
+Json to_json(const std::vector<Measure>& measures)
+{
+    Json object = Json::object();
+    for (const Measure& measure : measures)
+        object[measure.name] = std::holds_alternative<Real>(measure.value) ? to_json(std::get<Real>(measure.value))
+                                                                           : Json(std::get<std::string>(measure.value));
+    return object;
+}
+
+Json to_json(const std::vector<solver::Reference>& references)
+{
+    Json array = Json::array();
+    for (const solver::Reference& reference : references) {
+        Json object{{"name", reference.name}, {"measures", Json::object()}, {"crack_path", reference.crack_path}};
+        for (const auto& [name, value] : reference.measure) object["measures"][name] = to_json(value);
+        array.push_back(std::move(object));
+    }
+    return array;
+}
+
+std::vector<Measure> read_measures(const Json& object)
+{
+    std::vector<Measure> measures;
+    for (const auto& [name, value] : object.items()) {
+        if (value.is_string())
+            measures.push_back({name, value.get<std::string>()});
+        else
+            measures.push_back({name, value.is_null() ? std::numeric_limits<Real>::quiet_NaN() : value.get<Real>()});
+    }
+    return measures;
+}
+
+std::vector<solver::Reference> read_references(const Json& array)
+{
+    std::vector<solver::Reference> references;
+    for (const Json& object : array) {
+        solver::Reference& reference = references.emplace_back();
+        reference.name = object.at("name");
+        reference.crack_path = object.at("crack_path");
+        for (const auto& [name, value] : object.at("measures").items())
+            if (value.is_number()) reference.measure[name] = value;
+    }
+    return references;
+}
+
+Json to_json(const RunRecord& record)
+{
+    const Real speed = record.wall_s > 0 ? static_cast<Real>(record.particle_steps) / record.wall_s : 0;
+    return {{"title", record.title},
+            {"version", record.version},
+            {"status", record.status},
+            {"exit_reason", record.exit_reason},
+            {"compiler", record.compiler},
+            {"instruction_set", record.instruction_set},
+            {"threads", record.threads},
+            {"wall_s", record.wall_s},
+            {"steps", record.steps},
+            {"particle_steps", record.particle_steps},
+            {"particle_steps_per_s", speed},
+            {"peak_rss_bytes", record.peak_rss_bytes},
+            {"particles", {{"start", record.particles_start}, {"end", record.particles_end}}},
+            {"modelled", record.modelled},
+            {"measures", to_json(record.measures)},
+            {"references", to_json(record.references)}};
+}
+} // namespace
+
+void write_run_record(const std::filesystem::path& path, const RunRecord& record)
+{
+    constexpr int indent = 2;
+    write_file(path, to_json(record).dump(indent, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+RunRecord read_run_record(const std::filesystem::path& path)
+{
+    try {
+        const Json json = Json::parse(read_file(path));
+        RunRecord record;
+        json.at("title").get_to(record.title);
+        json.at("version").get_to(record.version);
+        json.at("status").get_to(record.status);
+        json.at("exit_reason").get_to(record.exit_reason);
+        json.at("compiler").get_to(record.compiler);
+        json.at("instruction_set").get_to(record.instruction_set);
+        json.at("threads").get_to(record.threads);
+        json.at("wall_s").get_to(record.wall_s);
+        json.at("steps").get_to(record.steps);
+        json.at("particle_steps").get_to(record.particle_steps);
+        json.at("peak_rss_bytes").get_to(record.peak_rss_bytes);
+        json.at("particles").at("start").get_to(record.particles_start);
+        json.at("particles").at("end").get_to(record.particles_end);
+        json.at("modelled").get_to(record.modelled);
+        record.measures = read_measures(json.at("measures"));
+        record.references = read_references(json.at("references"));
+        return record;
+    } catch (const Json::exception& error) {
+        throw core::FileError("cannot read '" + path.string() + "': " + error.what());
+    }
+}
+
+std::string measures_line(const RunRecord& record)
+{
+    Json line{{"title", record.title}, {"status", record.status}};
+    line.update(to_json(record.measures));
+    return line.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+} // namespace io

@@ -1,0 +1,64 @@
+#include "particles/seed.h"
+
+#include <cmath>
+
+namespace particles
+{
+Real inside_fraction(const geometry::Shape& shape, const Vec3& centre, Real half)
+{
+    // CSG distances are lower bounds of the true distance, so a large value is a safe decision.
+    const Real distance = shape.distance(centre);
+    const Real reach = half * std::sqrt(Real(3));
+    if (distance > reach) return 0;
+    if (distance < -reach) return 1;
+    constexpr int samples = 4;
+    int inside = 0;
+    for (int i = 0; i < samples; ++i)
+        for (int j = 0; j < samples; ++j)
+            for (int k = 0; k < samples; ++k) {
+                const auto offset = [&](int n) { return half * ((2 * n + 1) / Real(samples) - 1); };
+                inside += shape.contains(centre + Vec3(offset(i), offset(j), offset(k))) ? 1 : 0;
+            }
+    return inside / Real(samples * samples * samples);
+}
+
+namespace
+{
+void append(const SeedTraits& traits, const Vec3& at, Real volume, int level, Particles& particles)
+{
+    for (std::size_t a = 0; a < 3; ++a) {
+        particles.position[a].push_back(at[static_cast<int>(a)]);
+        particles.rest_position[a].push_back(at[static_cast<int>(a)]);
+        particles.velocity[a].push_back(traits.velocity[static_cast<int>(a)]);
+    }
+    for (Column& component : particles.stress) component.push_back(0);
+    particles.rest_volume.push_back(volume);
+    particles.eq_plastic_strain.push_back(0);
+    particles.crack.push_back(-1);
+    particles.id.push_back(static_cast<std::uint32_t>(particles.id.size()));
+    particles.target_level.push_back(static_cast<std::uint8_t>(level));
+    particles.size_level.push_back(static_cast<std::uint8_t>(level));
+    particles.material.push_back(traits.material);
+    particles.away.push_back(0);
+    particles.mass.push_back(traits.density * volume);
+}
+} // namespace
+
+int seed_cell(const geometry::Shape& shape, const SeedTraits& traits, const Vec3& lower, Real spacing, int per_axis,
+              int level, Particles& particles)
+{
+    const Real side = spacing / per_axis;
+    int added = 0;
+    for (int i = 0; i < per_axis; ++i)
+        for (int j = 0; j < per_axis; ++j)
+            for (int k = 0; k < per_axis; ++k) {
+                const Vec3 at = lower + side * Vec3(i + Real(0.5), j + Real(0.5), k + Real(0.5));
+                const Real fraction = traits.edge == EdgeTreatment::staircase ? Real(shape.contains(at) ? 1 : 0)
+                                                                              : inside_fraction(shape, at, side / 2);
+                if (fraction < smallest_fraction) continue;
+                append(traits, at, fraction * side * side * side, level, particles);
+                ++added;
+            }
+    return added;
+}
+} // namespace particles

@@ -1,0 +1,65 @@
+#include "solver/audit.h"
+
+#include "core/parallel.h"
+#include "core/tensor.h"
+#include "material/elastic.h"
+#include "transfer/solid_share.h"
+
+namespace solver
+{
+namespace
+{
+Real volume(const particles::Particles& particles, Formulation formulation, std::size_t p)
+{
+    Real v = particles.rest_volume[p];
+    if (formulation == Formulation::total) {
+        core::Mat<Real> f{};
+        for (std::size_t n = 0; n < 9; ++n) f.m[n] = particles.deformation_gradient[n][p];
+        v *= core::determinant(f);
+    } else {
+        v *= particles.volume_ratio[p];
+    }
+    const std::int32_t crack = particles.crack[p];
+    return crack < 0 ? v : v * transfer::solid_share(particles.cracks[static_cast<std::size_t>(crack)]);
+}
+} // namespace
+
+Ledger audit(const Prepared& prepared, const State& state)
+{
+    const particles::Particles& particles = state.particles;
+    const grid::Levels& levels = state.levels;
+    std::vector<Ledger> leaf(levels.leaves.size());
+    core::parallel_for(leaf.size(), [&](std::size_t n) {
+        for (std::uint32_t p = levels.cell_start[n * grid::leaf_cells];
+             p < levels.cell_start[(n + 1) * grid::leaf_cells]; ++p) {
+            Real speed2 = 0;
+            for (const particles::Column& v : particles.velocity) speed2 += v[p] * v[p];
+            core::Sym<Real> stress{};
+            for (std::size_t c = 0; c < 6; ++c) stress.s[c] = particles.stress[c][p];
+            leaf[n].kinetic += particles.mass[p] * speed2 / 2;
+            leaf[n].elastic += volume(particles, prepared.options.formulation, p) *
+                               material::elastic_energy(prepared.laws.materials[particles.material[p]].elastic, stress);
+        }
+    });
+    Ledger total;
+    total.plastic = state.folded_work.plastic;
+    total.decohesion = state.folded_work.decohesion;
+    for (std::size_t n = 0; n < leaf.size(); ++n) {
+        total.kinetic += leaf[n].kinetic;
+        total.elastic += leaf[n].elastic;
+        total.plastic += state.leaf_work[n].plastic;
+        total.decohesion += state.leaf_work[n].decohesion;
+    }
+    for (const LoadState& load : state.loads) total.external += load.external_work;
+    total.initial = state.initial_energy;
+    return total;
+}
+
+Vec3 momentum(const particles::Particles& particles)
+{
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t p = 0; p < particles.size(); ++p)
+        for (std::size_t a = 0; a < 3; ++a) sum[static_cast<int>(a)] += particles.mass[p] * particles.velocity[a][p];
+    return sum;
+}
+} // namespace solver

@@ -1,0 +1,59 @@
+#include "solver/follow.h"
+
+#include "refine/regrid.h"
+
+#include <algorithm>
+
+namespace solver
+{
+namespace
+{
+std::vector<std::uint32_t> places_of(const std::vector<std::uint32_t>& ids, const particles::Particles& particles)
+{
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t p = 0; p < particles.size(); ++p)
+        if (std::binary_search(ids.begin(), ids.end(), particles.id[p])) places.push_back(p);
+    // In id order, so that sums over them do not depend on the present order of particles.
+    std::sort(places.begin(), places.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return particles.id[a] < particles.id[b]; });
+    return places;
+}
+
+void fold_work(State& state)
+{
+    for (const LeafWork& work : state.leaf_work) {
+        state.folded_work.plastic += work.plastic;
+        state.folded_work.decohesion += work.decohesion;
+    }
+    state.leaf_work.assign(state.levels.leaves.size(), {});
+}
+} // namespace
+
+void find_gauges(const State& state, Derived& derived)
+{
+    derived.gauge_upper = places_of(state.gauge_upper, state.particles);
+    derived.gauge_lower = places_of(state.gauge_lower, state.particles);
+}
+
+void regrid(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
+{
+    state.strays.refinement = refine::refinement_from_targets(state.levels, state.particles);
+    refine::split_into_finer_cells(state.levels, state.strays.refinement, prepared.per_axis, state.particles);
+    refine::order(problem.numerics.formulation, state.strays.refinement, state.levels, state.particles);
+    fold_work(state);
+    transfer::assign_all(state.particles, state.levels, state.strays);
+    find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
+    find_gauges(state, derived);
+    transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
+}
+
+void follow_particles(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
+{
+    if (problem.numerics.formulation == Formulation::total) return;
+    if (transfer::worth_reordering(state.strays, state.particles)) {
+        regrid(problem, prepared, state, derived);
+    } else if (load_nodes_outdated(problem, state.loads, derived.load_nodes)) {
+        find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
+    }
+}
+} // namespace solver

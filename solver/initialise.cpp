@@ -1,0 +1,133 @@
+#include "core/error.h"
+#include "grid/topology.h"
+#include "refine/populate.h"
+#include "refine/regrid.h"
+#include "solver/audit.h"
+#include "solver/follow.h"
+#include "solver/step.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace solver
+{
+namespace
+{
+geometry::Bounds bounds_of_all(const std::vector<Body>& bodies)
+{
+    const Real far = std::numeric_limits<Real>::infinity();
+    geometry::Bounds all{Vec3::Constant(far), Vec3::Constant(-far)};
+    for (const Body& body : bodies) {
+        const geometry::Bounds b = body.shape.bounds();
+        all.lower = all.lower.cwiseMin(b.lower);
+        all.upper = all.upper.cwiseMax(b.upper);
+    }
+    return all;
+}
+
+/// Columns that only one formulation or transfer needs.
+void add_scheme_columns(const Numerics& numerics, particles::Particles& particles)
+{
+    const std::size_t count = particles.size();
+    if (numerics.formulation == Formulation::total) {
+        for (std::size_t n = 0; n < 9; ++n) particles.deformation_gradient[n].assign(count, n % 4 == 0 ? 1 : 0);
+    } else {
+        particles.volume_ratio.assign(count, 1);
+    }
+    if (numerics.transfer == Transfer::apic)
+        for (particles::Column& entry : particles.affine) entry.assign(count, 0);
+}
+
+/// Ids of the particles within one particle spacing of a point, or of the nearest one; sorted.
+std::vector<std::uint32_t> particles_near(const particles::Particles& particles, const Vec3& point, Real radius)
+{
+    std::vector<std::uint32_t> ids;
+    std::uint32_t nearest = 0;
+    Real least = std::numeric_limits<Real>::infinity();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+        const Vec3 x(particles.rest_position[0][p], particles.rest_position[1][p], particles.rest_position[2][p]);
+        const Real distance = (x - point).norm();
+        if (distance < radius) ids.push_back(particles.id[p]);
+        if (distance < least) {
+            least = distance;
+            nearest = particles.id[p];
+        }
+    }
+    if (ids.empty()) ids.push_back(nearest);
+    std::sort(ids.begin(), ids.end());
+    return ids;
+}
+
+void populate(const Problem& problem, const Prepared& prepared, State& state)
+{
+    const refine::Lattice lattice{problem.grid.cell, problem.grid.origin, problem.grid.levels};
+    state.strays.refinement = refine::refinement_of(problem.zones, lattice, bounds_of_all(problem.bodies));
+    for (const Body& body : problem.bodies) {
+        const std::size_t before = state.particles.size();
+        const material::Material& material = problem.materials[static_cast<std::size_t>(body.material)];
+        refine::populate(
+            body.shape,
+            {material.elastic.density, body.velocity, static_cast<std::uint8_t>(body.material), problem.grid.edge},
+            lattice, state.strays.refinement, prepared.per_axis, state.particles);
+        if (state.particles.size() == before)
+            throw core::InputError(fmt::format("body '{}' has no particle: it is thinner than a cell of {} mm, or its "
+                                               "shape is empty",
+                                               body.name, problem.grid.cell));
+    }
+    add_scheme_columns(problem.numerics, state.particles);
+}
+
+void check_loads(const Problem& problem, const grid::Levels& levels, const Derived& derived)
+{
+    for (std::size_t i = 0; i < problem.loads.size(); ++i) {
+        bool holds = false;
+        for (const grid::NodeAddress& at : derived.load_nodes[i].node)
+            holds = holds || levels.sums(static_cast<std::size_t>(at.leaf))[at.node].mass > 0;
+        if (!holds)
+            throw core::InputError(fmt::format("load '{}' holds no node with mass: its region misses the body or is "
+                                               "smaller than a cell",
+                                               problem.loads[i].name));
+    }
+}
+} // namespace
+
+State initialise(const Problem& problem, const Prepared& prepared, Derived& derived)
+{
+    State state;
+    state.levels.spacing0 = problem.grid.cell;
+    state.levels.origin = problem.grid.origin;
+    state.levels.count = problem.grid.levels;
+    state.loads.resize(problem.loads.size());
+    state.ligaments.resize(problem.ligaments.size());
+    populate(problem, prepared, state);
+    refine::order(problem.numerics.formulation, state.strays.refinement, state.levels, state.particles);
+    state.leaf_work.assign(state.levels.leaves.size(), {});
+    if (problem.gauge) {
+        const Real radius = state.levels.spacing(state.levels.count - 1);
+        state.gauge_upper = particles_near(state.particles, problem.gauge->upper, radius);
+        state.gauge_lower = particles_near(state.particles, problem.gauge->lower, radius);
+    }
+    transfer::assign_all(state.particles, state.levels, state.strays);
+    find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
+    find_gauges(state, derived);
+    derived.ligaments = ligament_map(problem);
+    transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
+    check_loads(problem, state.levels, derived);
+    const Ledger start = audit(prepared, state);
+    state.initial_energy = start.kinetic + start.elastic;
+    return state;
+}
+
+void resume(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
+{
+    grid::restore(state.levels);
+    state.strays.refinement = grid::refinement_of_cells(state.levels);
+    transfer::assign_all(state.particles, state.levels, state.strays);
+    find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
+    find_gauges(state, derived);
+    derived.ligaments = ligament_map(problem);
+    transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
+}
+} // namespace solver

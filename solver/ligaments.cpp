@@ -1,0 +1,234 @@
+#include "solver/ligaments.h"
+
+#include "core/contract.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace solver
+{
+namespace
+{
+const Feature& feature_named(const Problem& problem, const std::string& name)
+{
+    const auto found = std::find_if(problem.features.begin(), problem.features.end(),
+                                    [&](const Feature& feature) { return feature.name == name; });
+    CLEAVE_EXPECTS(found != problem.features.end());
+    return *found;
+}
+
+LigamentColumns columns_of(const Problem& problem, const Ligament& ligament)
+{
+    CLEAVE_EXPECTS(ligament.corridor.size() >= 3);
+    const Feature& from = feature_named(problem, ligament.from);
+    const Feature& to = feature_named(problem, ligament.to);
+
+    LigamentColumns columns;
+    columns.axis_u = (ligament.through + 1) % 3;
+    columns.axis_v = (ligament.through + 2) % 3;
+    const Real h = columns.spacing = problem.grid.cell / static_cast<Real>(1 << (problem.grid.levels - 1));
+    std::array<Real, 2> lower = ligament.corridor[0], upper = lower;
+    for (const auto& corner : ligament.corridor)
+        for (std::size_t i = 0; i < 2; ++i) {
+            lower[i] = std::min(lower[i], corner[i]);
+            upper[i] = std::max(upper[i], corner[i]);
+        }
+    const std::array<Real, 2> origin{problem.grid.origin[columns.axis_u], problem.grid.origin[columns.axis_v]};
+    std::array<int, 2> count{};
+    for (std::size_t i = 0; i < 2; ++i) {
+        lower[i] = origin[i] + h * std::floor((lower[i] - origin[i]) / h);
+        count[i] = static_cast<int>(std::ceil((upper[i] - lower[i]) / h));
+    }
+    columns.lower_u = lower[0];
+    columns.lower_v = lower[1];
+    columns.count_u = count[0];
+    columns.count_v = count[1];
+
+    const geometry::Shape corridor = geometry::extruded_polygon(ligament.corridor, ligament.through, -1, 1);
+    Vec3 along = to.centre - from.centre;
+    along[ligament.through] = 0;
+    if (along.norm() > 0) along.normalize();
+    for (int u = 0; u < count[0]; ++u)
+        for (int v = 0; v < count[1]; ++v) {
+            Vec3 centre = Vec3::Zero();
+            centre[columns.axis_u] = lower[0] + (u + 0.5) * h;
+            centre[columns.axis_v] = lower[1] + (v + 0.5) * h;
+            columns.inside.push_back(corridor.contains(centre));
+            const auto touches = [&](const Feature& feature) {
+                centre[ligament.through] = feature.centre[ligament.through];
+                return feature.shape.distance(centre) <= touching_distance * h;
+            };
+            columns.touches_from.push_back(touches(from));
+            columns.touches_to.push_back(touches(to));
+            columns.station.push_back(static_cast<std::int32_t>(std::floor(along.dot(centre - from.centre) / h)));
+        }
+    return columns;
+}
+
+/// Contents of one ligament's columns at one time.
+struct Contents
+{
+    std::vector<Real> volume;    // mm^3, rest volume of the particles in the column
+    std::vector<Real> separated; // mm^3, of those with damage 1
+    bool damaged = false;        // some particle has damage > 0
+
+    explicit Contents(std::size_t count) : volume(count, 0), separated(count, 0) {}
+};
+
+Contents contents_of(const LigamentColumns& columns, const particles::Particles& particles)
+{
+    Contents contents(columns.inside.size());
+    const auto& rest_u = particles.rest_position[static_cast<std::size_t>(columns.axis_u)];
+    const auto& rest_v = particles.rest_position[static_cast<std::size_t>(columns.axis_v)];
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+        const std::int32_t column = columns.column(rest_u[p], rest_v[p]);
+        if (column < 0) continue;
+        const auto c = static_cast<std::size_t>(column);
+        contents.volume[c] += particles.rest_volume[p];
+        if (particles.crack[p] < 0) continue;
+        const Real damage = particles.cracks[static_cast<std::size_t>(particles.crack[p])].damage;
+        contents.damaged = contents.damaged || damage > 0;
+        if (damage >= 1) contents.separated[c] += particles.rest_volume[p];
+    }
+    return contents;
+}
+
+/// 1 for the broken columns.
+std::vector<std::uint8_t> broken_columns(const Contents& contents)
+{
+    std::vector<std::uint8_t> broken(contents.volume.size());
+    for (std::size_t c = 0; c < broken.size(); ++c)
+        broken[c] = contents.separated[c] > 0 && contents.separated[c] >= broken_share * contents.volume[c];
+    return broken;
+}
+
+/// Whether broken columns, joined by sides or corners, lead from one feature to the other.
+bool joins(const LigamentColumns& columns, const std::vector<std::uint8_t>& broken)
+{
+    std::vector<std::int32_t> front;
+    std::vector<std::uint8_t> seen(broken.size());
+    const auto visit = [&](int u, int v) {
+        if (u < 0 || v < 0 || u >= columns.count_u || v >= columns.count_v) return;
+        const std::int32_t column = u * columns.count_v + v;
+        const auto c = static_cast<std::size_t>(column);
+        if (!broken[c] || seen[c]) return;
+        seen[c] = 1;
+        front.push_back(column);
+    };
+    for (int u = 0; u < columns.count_u; ++u)
+        for (int v = 0; v < columns.count_v; ++v)
+            if (columns.touches_from[static_cast<std::size_t>(u * columns.count_v + v)]) visit(u, v);
+    while (!front.empty()) {
+        const std::int32_t column = front.back();
+        front.pop_back();
+        if (columns.touches_to[static_cast<std::size_t>(column)]) return true;
+        const int u = column / columns.count_v, v = column % columns.count_v;
+        for (int du = -1; du <= 1; ++du)
+            for (int dv = -1; dv <= 1; ++dv) visit(u + du, v + dv);
+    }
+    return false;
+}
+
+/// Share of the stations with material that have a broken column.
+Real broken_front(const LigamentColumns& columns, const Contents& contents, const std::vector<std::uint8_t>& broken)
+{
+    if (columns.station.empty()) return 0;
+    const auto [first, last] = std::minmax_element(columns.station.begin(), columns.station.end());
+    std::vector<std::uint8_t> station(static_cast<std::size_t>(*last - *first + 1)); // 0 empty, 1 material, 2 broken
+    for (std::size_t c = 0; c < broken.size(); ++c) {
+        std::uint8_t& value = station[static_cast<std::size_t>(columns.station[c] - *first)];
+        if (broken[c])
+            value = 2;
+        else if (contents.volume[c] > 0)
+            value = std::max<std::uint8_t>(value, 1);
+    }
+    const auto material = std::count_if(station.begin(), station.end(), [](std::uint8_t s) { return s > 0; });
+    const auto cut = std::count(station.begin(), station.end(), 2);
+    return material > 0 ? static_cast<Real>(cut) / static_cast<Real>(material) : 0;
+}
+
+void note(const Observation& now, Real& time, Real& force, Real& cod)
+{
+    if (time >= 0) return;
+    time = now.time;
+    force = now.force;
+    cod = now.cod;
+}
+} // namespace
+
+std::int32_t LigamentColumns::column(Real u, Real v) const
+{
+    const Real x = (u - lower_u) / spacing, y = (v - lower_v) / spacing;
+    if (!(x >= 0 && y >= 0 && x < count_u && y < count_v)) return -1;
+    const std::int32_t c = static_cast<std::int32_t>(x) * count_v + static_cast<std::int32_t>(y);
+    return inside[static_cast<std::size_t>(c)] ? c : -1;
+}
+
+LigamentMap ligament_map(const Problem& problem)
+{
+    LigamentMap map;
+    for (const Ligament& ligament : problem.ligaments) map.ligaments.push_back(columns_of(problem, ligament));
+    return map;
+}
+
+void update_ligaments(const LigamentMap& map, const particles::Particles& particles, const Observation& now,
+                      std::vector<LigamentState>& ligaments)
+{
+    if (ligaments.empty()) ligaments.resize(map.ligaments.size());
+    CLEAVE_EXPECTS(ligaments.size() == map.ligaments.size());
+    for (std::size_t i = 0; i < ligaments.size(); ++i) {
+        const LigamentColumns& columns = map.ligaments[i];
+        LigamentState& state = ligaments[i];
+        const Contents contents = contents_of(columns, particles);
+        if (!contents.damaged) continue;
+        note(now, state.onset_time, state.onset_force, state.onset_cod);
+        const std::vector<std::uint8_t> broken = broken_columns(contents);
+        if (std::find(broken.begin(), broken.end(), 1) == broken.end()) continue;
+        note(now, state.first_time, state.first_force, state.first_cod);
+        state.front = broken_front(columns, contents, broken);
+        if (state.through_time < 0 && joins(columns, broken))
+            note(now, state.through_time, state.through_force, state.through_cod);
+    }
+}
+
+CrackPath crack_path(const std::vector<Ligament>& names, const std::vector<LigamentState>& states,
+                     const std::vector<std::string>& start_features)
+{
+    CLEAVE_EXPECTS(names.size() == states.size());
+    CrackPath path;
+    std::vector<std::string> ends = start_features; // where the next ligament may begin
+    while (true) {
+        const std::size_t none = names.size();
+        std::size_t next = none;
+        bool forward = true;
+        Real earliest = std::numeric_limits<Real>::infinity();
+        const auto visited = [&](const std::string& name) {
+            return std::find(path.features.begin(), path.features.end(), name) != path.features.end();
+        };
+        for (std::size_t i = 0; i < names.size(); ++i)
+            for (const std::string& end : ends) {
+                const bool from_here = names[i].from == end, to_here = names[i].to == end;
+                if (!from_here && !to_here) continue;
+                const Real time = states[i].through_time;
+                if (time < 0 || time >= earliest || visited(from_here ? names[i].to : names[i].from)) continue;
+                next = i;
+                forward = from_here;
+                earliest = time;
+            }
+        if (next == none) return path;
+        const Ligament& ligament = names[next];
+        if (path.features.empty()) path.features.push_back(forward ? ligament.from : ligament.to);
+        path.features.push_back(forward ? ligament.to : ligament.from);
+        path.ligaments.push_back(next);
+        ends = {path.features.back()};
+    }
+}
+
+std::string path_name(const CrackPath& path)
+{
+    std::string name;
+    for (const std::string& feature : path.features) name += (name.empty() ? "" : "-") + feature;
+    return name;
+}
+} // namespace solver

@@ -1,0 +1,185 @@
+#include "solver/loads.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace solver
+{
+namespace
+{
+using grid::NodeAddress;
+
+Vec3 quantised(const Problem& problem, const Vec3& displacement)
+{
+    if (problem.numerics.formulation == Formulation::total) return Vec3::Zero();
+    const Real finest = problem.grid.cell / static_cast<Real>(1 << (problem.grid.levels - 1));
+    const Real quantum = load_shift_quantum * finest;
+    return (displacement / quantum).array().round().matrix() * quantum;
+}
+
+Vec3 prescribed(const Load& load, Real time)
+{
+    Vec3 v = Vec3::Zero();
+    for (int a = 0; a < 3; ++a)
+        v[a] = load.velocity[static_cast<std::size_t>(a)].value_or(0) * ramp_value(load.ramp, time);
+    return v;
+}
+
+bool held(const Load& load, int axis)
+{
+    return load.velocity[static_cast<std::size_t>(axis)].has_value() ||
+           (load.kind == Load::Kind::pin && axis != load.axis);
+}
+
+/// Arm of a node about the pin's axis, at rest positions in the total formulation turned by the pin's angle.
+Vec3 arm(const Problem& problem, const Load& load, const LoadState& state, const Vec3& position)
+{
+    Vec3 r = position - load.centre;
+    if (problem.numerics.formulation == Formulation::updated) r -= state.displacement;
+    r[load.axis] = 0;
+    if (problem.numerics.formulation == Formulation::updated) return r;
+    Vec3 axis = Vec3::Zero();
+    axis[load.axis] = 1;
+    return std::cos(state.angle) * r + std::sin(state.angle) * axis.cross(r);
+}
+
+Vec3 spin_velocity(const Load& load, Real spin, const Vec3& r)
+{
+    Vec3 axis = Vec3::Zero();
+    axis[load.axis] = spin;
+    return axis.cross(r);
+}
+
+/// Velocity the transfer carries on from before the step: FLIP keeps the prescribed one, PIC and APIC the mapped one.
+Vec3 carried_velocity(const Prepared& prepared, const grid::NodeSum& sum, const Vec3& before)
+{
+    const Real mapped = prepared.options.transfer == Transfer::apic ? Real(1) : prepared.options.pic_fraction;
+    Vec3 v;
+    for (int a = 0; a < 3; ++a)
+        v[a] = (1 - mapped) * before[a] + mapped * sum.momentum[static_cast<std::size_t>(a)] / sum.mass;
+    return v;
+}
+
+Vec3 total_force(const Problem& problem, const grid::NodeSum& sum)
+{
+    return Vec3(sum.force[0], sum.force[1], sum.force[2]) + sum.mass * problem.gravity;
+}
+
+Real new_spin(const Problem& problem, const Prepared& prepared, const Load& load, const LoadState& state,
+              const LoadNodes& nodes, Real time, Real dt, const grid::Levels& levels)
+{
+    Real angular_momentum = 0;
+    Real inertia = 0;
+    const Vec3 before = prescribed(load, time);
+    for (std::size_t n = 0; n < nodes.node.size(); ++n) {
+        const grid::NodeSum& sum = levels.sums(static_cast<std::size_t>(nodes.node[n].leaf))[nodes.node[n].node];
+        if (sum.mass <= 0) continue;
+        const Vec3 r = arm(problem, load, state, nodes.position[n]);
+        const Vec3 v = carried_velocity(prepared, sum, before + spin_velocity(load, state.spin, r));
+        const Vec3 momentum = sum.mass * (v - before) + dt * total_force(problem, sum);
+        angular_momentum += r.cross(momentum)[load.axis];
+        inertia += sum.mass * r.squaredNorm();
+    }
+    return inertia > 0 ? angular_momentum / inertia : Real(0);
+}
+} // namespace
+
+Real ramp_value(const Ramp& ramp, Real time)
+{
+    if (ramp.kind == Ramp::Kind::step || time >= ramp.time) return 1;
+    if (time <= 0) return 0;
+    const Real s = time / ramp.time;
+    if (ramp.kind == Ramp::Kind::linear) return s;
+    return s * s * s * (10 - 15 * s + 6 * s * s);
+}
+
+void find_load_nodes(const Problem& problem, const grid::Levels& levels, const std::vector<LoadState>& loads,
+                     std::vector<LoadNodes>& nodes)
+{
+    nodes.assign(problem.loads.size(), {});
+    for (std::size_t i = 0; i < problem.loads.size(); ++i) nodes[i].shift = quantised(problem, loads[i].displacement);
+    for (std::size_t n = 0; n < levels.leaves.size(); ++n) {
+        const grid::Leaf& leaf = levels.leaves[n];
+        const Real spacing = levels.spacing(leaf.level);
+        const Vec3 lower = levels.origin + spacing * leaf.origin.cast<Real>();
+        const Vec3 centre = lower + Vec3::Constant(spacing * grid::leaf_side / 2);
+        for (std::size_t i = 0; i < problem.loads.size(); ++i) {
+            const geometry::Shape& region = problem.loads[i].region;
+            if (region.distance(centre - nodes[i].shift) > spacing * grid::leaf_side) continue;
+            for (int place = 0; place < grid::leaf_cells; ++place) {
+                const Index3 local(place >> 6, place >> 3 & 7, place & 7);
+                const int node = grid::tile_index(local[0], local[1], local[2]);
+                if (levels.constrained[n * grid::tile_nodes + static_cast<std::size_t>(node)] != 0) continue;
+                const Vec3 at = lower + spacing * local.cast<Real>();
+                // A small tolerance keeps nodes exactly on the region's face in.
+                if (region.distance(at - nodes[i].shift) > 1e-9 * spacing) continue;
+                nodes[i].node.push_back({static_cast<std::int32_t>(n), node});
+                nodes[i].position.push_back(at);
+            }
+        }
+    }
+}
+
+bool load_nodes_outdated(const Problem& problem, const std::vector<LoadState>& loads,
+                         const std::vector<LoadNodes>& nodes)
+{
+    if (nodes.size() != loads.size()) return true;
+    for (std::size_t i = 0; i < loads.size(); ++i)
+        if (quantised(problem, loads[i].displacement) != nodes[i].shift) return true;
+    return false;
+}
+
+void apply_loads(const Problem& problem, const Prepared& prepared, const std::vector<LoadNodes>& nodes, Real time,
+                 Real dt, grid::Levels& levels, std::vector<LoadState>& loads)
+{
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+        const Load& load = problem.loads[i];
+        LoadState& state = loads[i];
+        const Vec3 before = prescribed(load, time);
+        const Vec3 after = prescribed(load, time + dt);
+        const Real spin_before = state.spin;
+        if (load.kind == Load::Kind::pin)
+            state.spin = new_spin(problem, prepared, load, state, nodes[i], time, dt, levels);
+        Vec3 impulse = Vec3::Zero();
+        for (std::size_t n = 0; n < nodes[i].node.size(); ++n) {
+            const NodeAddress at = nodes[i].node[n];
+            const grid::NodeSum& sum = levels.sums(static_cast<std::size_t>(at.leaf))[at.node];
+            if (sum.mass <= 0) continue;
+            grid::NodeMotion& motion = levels.motions(static_cast<std::size_t>(at.leaf))[at.node];
+            Vec3 old = before;
+            Vec3 fresh = after;
+            if (load.kind == Load::Kind::pin) {
+                const Vec3 r = arm(problem, load, state, nodes[i].position[n]);
+                old += spin_velocity(load, spin_before, r);
+                fresh += spin_velocity(load, state.spin, r);
+            }
+            const Vec3 given =
+                sum.mass * (fresh - carried_velocity(prepared, sum, old)) - dt * total_force(problem, sum);
+            for (int a = 0; a < 3; ++a) {
+                if (!held(load, a)) continue;
+                motion.velocity[static_cast<std::size_t>(a)] = fresh[a];
+                motion.change[static_cast<std::size_t>(a)] = fresh[a] - old[a];
+                impulse[a] += given[a];
+            }
+        }
+        state.reaction = impulse / dt;
+        state.impulse += impulse;
+        state.impulse_time += dt;
+        state.external_work += impulse.dot(before + after) / 2;
+        state.displacement += dt * after;
+        state.angle += dt * state.spin;
+    }
+}
+
+void hold_loads(const Problem& problem, const std::vector<LoadNodes>& nodes, grid::Levels& levels)
+{
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        for (const NodeAddress& at : nodes[i].node) {
+            grid::NodeMotion& motion = levels.motions(static_cast<std::size_t>(at.leaf))[at.node];
+            for (int a = 0; a < 3; ++a)
+                if (held(problem.loads[i], a))
+                    motion.change[static_cast<std::size_t>(a)] = motion.velocity[static_cast<std::size_t>(a)];
+        }
+}
+} // namespace solver

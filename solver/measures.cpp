@@ -1,0 +1,81 @@
+#include "solver/measures.h"
+
+#include "solver/ligaments.h"
+
+#include <algorithm>
+
+namespace solver
+{
+namespace
+{
+/// Ligaments whose first broken column is a crack initiation, in time order.
+std::vector<std::size_t> initiations(const Problem& problem, const std::vector<LigamentState>& states,
+                                     const CrackPath& path)
+{
+    std::vector<std::size_t> events = path.ligaments;
+    const std::vector<std::string> ends =
+        path.features.empty() ? problem.start_features : std::vector<std::string>{path.features.back()};
+    const auto is_end = [&](const std::string& name) {
+        return std::find(ends.begin(), ends.end(), name) != ends.end();
+    };
+    const auto is_visited = [&](const std::string& name) {
+        return std::find(path.features.begin(), path.features.end(), name) != path.features.end();
+    };
+    std::optional<std::size_t> next; // begun at the end of the path, not yet separated
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const Ligament& ligament = problem.ligaments[i];
+        const bool continues =
+            (is_end(ligament.from) && !is_visited(ligament.to)) || (is_end(ligament.to) && !is_visited(ligament.from));
+        if (!continues || states[i].first_time < 0) continue;
+        if (!next || states[i].first_time < states[*next].first_time) next = i;
+    }
+    if (next) events.push_back(*next);
+    std::stable_sort(events.begin(), events.end(),
+                     [&](std::size_t a, std::size_t b) { return states[a].first_time < states[b].first_time; });
+    return events;
+}
+} // namespace
+
+Real specimen_force(const Problem& problem, Real force_upper, Real force_lower)
+{
+    if (problem.force_lower.empty()) return force_upper;
+    if (problem.force_upper.empty()) return force_lower;
+    return 0.5 * (force_upper + force_lower);
+}
+
+Measures measures(const Problem& problem, const std::vector<HistoryLine>& history,
+                  const std::vector<LigamentState>& ligaments)
+{
+    Measures result;
+    std::optional<Real> peak;
+    for (const HistoryLine& line : history) {
+        const Real force = specimen_force(problem, line.force_upper, line.force_lower);
+        if (!peak || force > *peak) peak = force;
+    }
+    result.numbers.push_back({"peak_force_N", peak});
+
+    CrackPath path;
+    std::vector<std::size_t> events;
+    if (!ligaments.empty()) {
+        path = crack_path(problem.ligaments, ligaments, problem.start_features);
+        events = initiations(problem, ligaments, path);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::string name = "c" + std::to_string(k + 1);
+        std::optional<Real> force, cod;
+        if (k < events.size()) {
+            force = ligaments[events[k]].first_force;
+            cod = ligaments[events[k]].first_cod;
+        }
+        result.numbers.push_back({name + "_force_N", force});
+        result.numbers.push_back({name + "_cod_mm", cod});
+    }
+
+    std::optional<Real> residual;
+    if (!history.empty() && history.back().energy.external != 0)
+        residual = history.back().energy.residual() / history.back().energy.external;
+    result.numbers.push_back({"energy_residual", residual});
+    result.crack_path = path_name(path);
+    return result;
+}
+} // namespace solver

@@ -1,0 +1,39 @@
+/// The named results of a run: peak force, crack initiations, crack path, lost energy (the contract of run.json).
+#pragma once
+
+#include "solver/problem.h"
+#include "solver/state.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace solver
+{
+/// A number with its contract name; empty where the run does not have it (reported as null).
+struct Measure
+{
+    std::string name;
+    std::optional<Real> value;
+};
+
+struct Measures
+{
+    std::vector<Measure> numbers; // always the same names in the same order
+    std::string crack_path;       // such as "A-D-C-E", empty: no ligament separated
+};
+
+/// Names: peak_force_N; c1_force_N, c1_cod_mm, c2_..., c3_...; energy_residual.
+///
+/// peak_force_N     largest force of the history (`specimen_force`)
+/// cK_...           crack initiation K: force and COD at the first through-broken column of a ligament. Counted are the
+///                  ligaments of the crack path and the one that continues it but is not separated yet, in the order of
+///                  their first broken columns; C1 to C3 of Yang et al. 2014, Table 1
+/// energy_residual  1, ledger residual over external work of the last line
+Measures measures(const Problem& problem, const std::vector<HistoryLine>& history,
+                  const std::vector<LigamentState>& ligaments);
+
+/// Force on the specimen [N]: mean of the two loads where both are named (what differs is momentum of the body), else
+/// the one that is.
+Real specimen_force(const Problem& problem, Real force_upper, Real force_lower);
+} // namespace solver

@@ -1,0 +1,93 @@
+#include "solver/observe.h"
+
+#include "solver/audit.h"
+#include "solver/measures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace solver
+{
+namespace
+{
+Real mean_displacement(const particles::Particles& particles, const std::vector<std::uint32_t>& places,
+                       std::size_t axis)
+{
+    Real sum = 0;
+    for (const std::uint32_t p : places) sum += particles.position[axis][p] - particles.rest_position[axis][p];
+    return places.empty() ? Real(0) : sum / static_cast<Real>(places.size());
+}
+
+/// Mean reaction of a named load since the last line, full specimen, positive along `sign`.
+Real mean_force(const Problem& problem, const State& state, const std::string& name, Real sign)
+{
+    for (std::size_t i = 0; i < problem.loads.size(); ++i)
+        if (problem.loads[i].name == name && state.loads[i].impulse_time > 0)
+            return sign * problem.symmetry_factor() * state.loads[i].impulse[problem.force_axis] /
+                   state.loads[i].impulse_time;
+    return 0;
+}
+} // namespace
+
+Real gauge_opening(const Problem& problem, const State& state, const Derived& derived)
+{
+    if (!problem.gauge) return 0;
+    const auto axis = static_cast<std::size_t>(problem.gauge->axis);
+    return mean_displacement(state.particles, derived.gauge_upper, axis) -
+           mean_displacement(state.particles, derived.gauge_lower, axis);
+}
+
+std::vector<std::uint64_t> particles_per_level(const State& state)
+{
+    const grid::Levels& levels = state.levels;
+    std::vector<std::uint64_t> count;
+    for (std::size_t l = 0; l < static_cast<std::size_t>(levels.count); ++l)
+        count.push_back(levels.cell_start[static_cast<std::size_t>(levels.level_start[l + 1]) * grid::leaf_cells] -
+                        levels.cell_start[static_cast<std::size_t>(levels.level_start[l]) * grid::leaf_cells]);
+    return count;
+}
+
+HistoryLine observe(const Problem& problem, const Prepared& prepared, const Derived& derived, State& state)
+{
+    HistoryLine line;
+    line.step = state.clock.step;
+    line.time = state.clock.time;
+    line.dt = state.clock.dt;
+    line.force_upper = mean_force(problem, state, problem.force_upper, 1);
+    line.force_lower = mean_force(problem, state, problem.force_lower, -1);
+    line.cod = gauge_opening(problem, state, derived);
+    line.energy = audit(prepared, state);
+    for (const core::Crack& crack : state.particles.cracks) {
+        line.max_damage = std::max(line.max_damage, crack.damage);
+        line.separated_particles += crack.damage >= 1 ? 1 : 0;
+    }
+    line.particles = particles_per_level(state);
+    for (LoadState& load : state.loads) {
+        load.impulse.setZero();
+        load.impulse_time = 0;
+    }
+    update_ligaments(derived.ligaments, state.particles,
+                     {line.time, specimen_force(problem, line.force_upper, line.force_lower), line.cod},
+                     state.ligaments);
+    state.history.push_back(line);
+    return line;
+}
+
+Finish finished(const Problem& problem, const State& state)
+{
+    // The tolerance keeps a clock that sums steps from adding one for the last bit.
+    if (state.clock.time >= problem.end.time * (1 - 1e-12)) return Finish::time;
+    if (state.history.empty()) return Finish::no;
+    const HistoryLine& last = state.history.back();
+    if (last.cod >= problem.end.cod) return Finish::cod;
+    if (!problem.end.separated || last.separated_particles == 0) return Finish::no;
+    Real peak = 0;
+    for (const HistoryLine& line : state.history) peak = std::max(peak, std::abs(line.force_upper));
+    // One quiet line may be ringing; ten in a row are not.
+    constexpr std::size_t quiet_lines = 10;
+    if (state.history.size() < quiet_lines || peak <= 0) return Finish::no;
+    for (std::size_t n = state.history.size() - quiet_lines; n < state.history.size(); ++n)
+        if (std::abs(state.history[n].force_upper) > separated_share * peak) return Finish::no;
+    return Finish::separated;
+}
+} // namespace solver

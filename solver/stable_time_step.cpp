@@ -1,0 +1,61 @@
+#include "solver/stable_time_step.h"
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/tensor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace solver
+{
+namespace
+{
+[[noreturn]] void not_finite(const State& state, std::size_t p)
+{
+    throw core::NumericalError(fmt::format(
+        "particle {} has no finite motion at step {}, t = {:.6g} ms: the computation is unstable. Try a smaller "
+        "numerics.cfl, or restart from the last checkpoint.",
+        state.particles.id[p], state.clock.step, state.clock.time));
+}
+
+/// c_d s + |v| of one particle [mm/ms].
+Real signal_speed(const Prepared& prepared, const State& state, std::size_t p)
+{
+    const particles::Particles& particles = state.particles;
+    const Real speed = std::hypot(particles.velocity[0][p], particles.velocity[1][p], particles.velocity[2][p]);
+    if (!std::isfinite(speed)) not_finite(state, p);
+    if (prepared.options.formulation == Formulation::updated) return prepared.wave_speed + speed;
+    const std::int32_t crack = particles.crack[p];
+    if (crack >= 0 && particles.cracks[static_cast<std::size_t>(crack)].damage >= 1) return prepared.wave_speed;
+    core::Mat<Real> f{};
+    for (std::size_t n = 0; n < 9; ++n) f.m[n] = particles.deformation_gradient[n][p];
+    const core::Mat<Real> cof = core::cofactor(f);
+    const Real jacobian = core::determinant(f);
+    if (!(jacobian > 0)) not_finite(state, p);
+    Real longest = 0;
+    for (int a = 0; a < 3; ++a)
+        longest = std::max(longest, cof(0, a) * cof(0, a) + cof(1, a) * cof(1, a) + cof(2, a) * cof(2, a));
+    return prepared.wave_speed * std::max(Real(1), std::sqrt(longest) / jacobian);
+}
+} // namespace
+
+Real stable_time_step(const Problem& problem, const Prepared& prepared, const State& state)
+{
+    const grid::Levels& levels = state.levels;
+    std::vector<Real> fastest(levels.leaves.size(), 0);
+    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+        for (std::uint32_t p = levels.cell_start[n * grid::leaf_cells];
+             p < levels.cell_start[(n + 1) * grid::leaf_cells]; ++p)
+            fastest[n] = std::max(fastest[n], signal_speed(prepared, state, p));
+    });
+    const Real finest = levels.spacing(levels.count - 1);
+    Real dt = problem.numerics.cfl * finest / prepared.wave_speed;
+    for (std::size_t n = 0; n < fastest.size(); ++n)
+        if (fastest[n] > 0)
+            dt = std::min(dt, deformed_step_share * levels.spacing(levels.leaves[n].level) / fastest[n]);
+    return dt;
+}
+} // namespace solver

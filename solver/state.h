@@ -1,0 +1,85 @@
+/// Everything that changes during a run. Only `step`, the dt rule, audits and restart see the whole of it.
+#pragma once
+
+#include "grid/levels.h"
+#include "particles/particles.h"
+#include "transfer/passes.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace solver
+{
+struct Clock
+{
+    std::int64_t step = 0;
+    Real time = 0; // ms
+    Real dt = 0;   // ms, of the last step
+};
+
+/// Motion and reaction of one load (same order as Problem::loads).
+struct LoadState
+{
+    Vec3 displacement = Vec3::Zero(); // mm, prescribed part
+    Real angle = 0;                   // rad, of a pin
+    Real spin = 0;                    // rad/ms, of a pin
+    Vec3 reaction = Vec3::Zero();     // N, last step: force of the load on the body, modelled part
+    Vec3 impulse = Vec3::Zero();      // N ms, since the last history line
+    Real impulse_time = 0;            // ms, time it was gathered over
+    Real external_work = 0;           // mJ, since time 0
+};
+
+/// Energies of the modelled part [mJ]. `residual` = external + initial - all the rest: what the scheme lost (> 0) or
+/// made.
+struct Ledger
+{
+    Real kinetic = 0;
+    Real elastic = 0;
+    Real plastic = 0;
+    Real decohesion = 0;
+    Real external = 0;
+    Real initial = 0;
+    Real residual() const { return external + initial - kinetic - elastic - plastic - decohesion; }
+};
+
+/// Dissipation summed per leaf inside the kernels; folded into State when leaves are renumbered.
+using transfer::LeafWork;
+
+/// What happened on one ligament (same order as Problem::ligaments); negative time: not yet.
+struct LigamentState
+{
+    Real onset_time = -1, onset_force = 0, onset_cod = 0;       // first particle with damage > 0 in the corridor
+    Real first_time = -1, first_force = 0, first_cod = 0;       // first through-broken column
+    Real through_time = -1, through_force = 0, through_cod = 0; // broken columns join the two features
+    Real front = 0;                                             // 1, share of the ligament's columns broken
+};
+
+/// One line of history.csv; forces are means over the interval since the line before, full specimen.
+struct HistoryLine
+{
+    std::int64_t step = 0;
+    Real time = 0, dt = 0;                 // ms
+    Real force_upper = 0, force_lower = 0; // N, positive: pulled apart
+    Real cod = 0;                          // mm
+    Ledger energy;                         // mJ, modelled part
+    Real max_damage = 0;                   // 1
+    std::uint64_t separated_particles = 0; // 1
+    std::vector<std::uint64_t> particles;  // per level
+};
+
+struct State
+{
+    particles::Particles particles;
+    grid::Levels levels;
+    Clock clock;
+    transfer::Strays strays;
+    std::vector<LoadState> loads;
+    std::vector<LigamentState> ligaments;
+    std::vector<LeafWork> leaf_work;                     // [leaf]
+    LeafWork folded_work;                                // mJ, of leaves that no longer exist
+    Real initial_energy = 0;                             // mJ
+    std::vector<HistoryLine> history;                    // every line so far: measures need peaks and events
+    std::vector<std::uint32_t> gauge_upper, gauge_lower; // particle ids whose mean displacement is the gauge
+};
+} // namespace solver

@@ -1,0 +1,90 @@
+#include "solver/step.h"
+
+#include "grid/halo.h"
+#include "grid/interface.h"
+#include "grid/momentum.h"
+#include "solver/follow.h"
+#include "solver/stable_time_step.h"
+
+namespace solver
+{
+namespace
+{
+transfer::PassOptions pass_options(const Prepared& prepared, const Clock& clock)
+{
+    transfer::PassOptions options = prepared.options;
+    options.dt = clock.dt;
+    options.time = clock.time + clock.dt;
+    return options;
+}
+
+void choose_dt(const Problem& problem, const Prepared& prepared, State& state)
+{
+    if (state.clock.step % time_step_interval == 0) state.clock.dt = stable_time_step(problem, prepared, state);
+}
+
+/// Node velocities of all levels from the particles' sums.
+void move_nodes(const Problem& problem, const Prepared& prepared, const Derived& derived, State& state)
+{
+    const Real time = state.clock.time;
+    const Real dt = state.clock.dt;
+    grid::assemble_sums(state.levels);
+    grid::restrict_sums(state.levels);
+    grid::advance_momentum(prepared.walls, problem.gravity, prepared.mass_cutoff, dt, state.levels);
+    apply_loads(problem, prepared, derived.load_nodes, time, dt, state.levels, state.loads);
+    grid::prolong_motion(state.levels);
+    grid::fill_motion_halos(state.levels);
+}
+
+/// Node velocities mapped again from the updated particles, into `change`.
+void move_nodes_again(const Problem& problem, const Prepared& prepared, const Derived& derived, State& state)
+{
+    grid::assemble_momentum(state.levels);
+    grid::restrict_momentum(state.levels);
+    grid::remap_velocity(prepared.walls, prepared.mass_cutoff, state.levels);
+    hold_loads(problem, derived.load_nodes, state.levels);
+    grid::prolong_motion(state.levels);
+    grid::fill_motion_halos(state.levels);
+}
+
+void tick(Clock& clock)
+{
+    clock.time += clock.dt;
+    ++clock.step;
+}
+} // namespace
+
+void step(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
+{
+    choose_dt(problem, prepared, state);
+    const transfer::PassOptions options = pass_options(prepared, state.clock);
+
+    move_nodes(problem, prepared, derived, state);
+
+    transfer::advance_and_scatter(options, prepared.laws, state.strays, state.particles, state.levels, state.leaf_work);
+
+    tick(state.clock);
+    follow_particles(problem, prepared, state, derived);
+}
+
+void step_musl(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
+{
+    choose_dt(problem, prepared, state);
+    const transfer::PassOptions options = pass_options(prepared, state.clock);
+
+    move_nodes(problem, prepared, derived, state);
+    transfer::remap_momentum(options, state.strays, state.particles, state.levels);
+    move_nodes_again(problem, prepared, derived, state);
+
+    transfer::advance_and_scatter(options, prepared.laws, state.strays, state.particles, state.levels, state.leaf_work);
+
+    tick(state.clock);
+    follow_particles(problem, prepared, state, derived);
+}
+
+void advance(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
+{
+    problem.numerics.stress_update == StressUpdate::musl ? step_musl(problem, prepared, state, derived)
+                                                         : step(problem, prepared, state, derived);
+}
+} // namespace solver

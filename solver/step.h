@@ -1,0 +1,49 @@
+/// One time step of all levels, and the run's beginning.
+#pragma once
+
+#include "solver/ligaments.h"
+#include "solver/loads.h"
+#include "solver/prepared.h"
+#include "solver/state.h"
+
+#include <vector>
+
+namespace solver
+{
+/// What follows from State and is rebuilt rather than stored: after start, restart and every ordering.
+struct Derived
+{
+    std::vector<LoadNodes> load_nodes;
+    std::vector<std::uint32_t> gauge_upper, gauge_lower; // present places of the gauge particles
+    LigamentMap ligaments;
+};
+
+/// Particles, leaves and sums at time 0.
+/// @error core::InputError if a body has no particle, a load holds no node or a gauge finds no particle
+State initialise(const Problem& problem, const Prepared& prepared, Derived& derived);
+
+/// Rebuild everything that a checkpoint does not hold: leaves, strays, load nodes, sums.
+/// @param state  reads particles in stored order, levels as io/checkpoint.h restores them
+void resume(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
+
+/// Advance by one time step: symplectic Euler, stress updated last, all levels with the same dt.
+///
+/// | phase                         | reads                                   | writes |
+/// |-------------------------------|-----------------------------------------|-----------------------------------------|
+/// | stable_time_step              | speeds, deformation, spacing            | dt | | grid::assemble_sums           |
+/// halo sums of neighbours                 | mass, momentum, force of owned nodes    | | grid::restrict_sums | sums of
+/// slaves                          | sums of masters                         | | grid::advance_momentum        | mass,
+/// momentum, force                   | node velocity and its change            | | apply_loads                   |
+/// mass, momentum, force of held nodes     | their velocity; reactions               | | grid::prolong_motion |
+/// velocity of masters                     | velocity of slaves                      | | grid::fill_motion_halos |
+/// velocity of owners                      | velocity of halos                       | | transfer::advance_and_scatter
+/// | node velocity, particles                | particles; mass, momentum, force        | | follow_particles | strays |
+/// order of particles, leaves, load nodes  |
+void step(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
+
+/// The same with the stress from velocities mapped again from the updated particles (MUSL).
+void step_musl(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
+
+/// The step the case asks for.
+void advance(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
+} // namespace solver

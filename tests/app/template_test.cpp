@@ -1,0 +1,60 @@
+#include "app/template.h"
+
+#include "app/forecast.h"
+#include "io/case.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace
+{
+std::filesystem::path written_template()
+{
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "cleave_template.toml";
+    std::ofstream(file) << app::case_template("demo");
+    return file;
+}
+
+TEST(Template, is_a_valid_case)
+{
+    const io::Case read = io::read_case_with_warnings(written_template());
+    EXPECT_EQ(read.problem.title, "demo");
+    EXPECT_TRUE(read.warnings.empty());
+}
+
+TEST(Forecast, counts_the_particles_of_a_block)
+{
+    solver::Problem problem;
+    problem.grid.cell = 1;
+    problem.grid.levels = 2;
+    problem.materials.push_back({"steel", {7.81e-3, 195e3, 0.3}, {}, {}, true});
+    // Wider than a slab of the counter, so that a slab boundary lies inside.
+    problem.bodies.push_back({"block", geometry::box(Vec3(0, 0, 0), Vec3(20, 4, 4)), 0, Vec3::Zero()});
+    problem.zones.push_back({"end", geometry::box(Vec3(6, -1, -1), Vec3(10, 5, 5)), 1, 0});
+    problem.end.time = 1;
+    const app::Forecast forecast = app::forecast(problem);
+    // Cells 6 to 9 along x, and 5 and 10, whose faces the closed zone touches only in its boundary, stay coarse.
+    EXPECT_EQ(forecast.particles.at(1), 4U * 4 * 4 * 64);
+    EXPECT_EQ(forecast.particles.at(0), 16U * 4 * 4 * 8);
+    EXPECT_EQ(forecast.total_particles(), forecast.particles[0] + forecast.particles[1]);
+    const Real wave = std::sqrt(problem.materials[0].elastic.wave_modulus() / 7.81e-3);
+    EXPECT_NEAR(forecast.dt, 0.5 * 0.5 / wave, 1e-12);
+    EXPECT_EQ(forecast.steps, std::ceil(1 / forecast.dt));
+}
+
+TEST(Forecast, map_shows_levels_and_voids)
+{
+    solver::Problem problem;
+    problem.grid.cell = 1;
+    problem.grid.levels = 2;
+    problem.bodies.push_back({"bar",
+                              geometry::subtract(geometry::box(Vec3(0, 0, 0), Vec3(8, 4, 1)),
+                                                 {geometry::box(Vec3(0, 0, -1), Vec3(2, 2, 2))}),
+                              0, Vec3::Zero()});
+    problem.zones.push_back({"end", geometry::box(Vec3(6, -1, -1), Vec3(9, 5, 5)), 1, 0});
+    EXPECT_EQ(app::level_map(problem, 78), "00000011\n..000011\n");
+}
+} // namespace

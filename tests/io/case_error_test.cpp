@@ -1,0 +1,248 @@
+#include "case_file.h"
+
+namespace
+{
+using test::valid_case;
+using test::with;
+using testing::AssertionFailure;
+using testing::AssertionResult;
+using testing::AssertionSuccess;
+
+AssertionResult contains(const std::string& text, const std::string& part)
+{
+    if (text.find(part) != std::string::npos) return AssertionSuccess();
+    return AssertionFailure() << "expected\n" << part << "\nin\n" << text;
+}
+
+using CaseError = test::CaseFile;
+
+TEST_F(CaseError, misspelt_key)
+{
+    EXPECT_EQ(complaint(with(valid_case, "tau_max =", "tau_mx =")),
+              "case.toml:10:1: error: missing key 'tau_max' in [material.steel.decohesion]\n"
+              "   10 | [material.steel.decohesion]\n"
+              "      | ^~~~~~~~~~~~~~~~~~~~~~~~~~~  or preset = \"paper\", or mode = \"opening\" or \"shear\"\n"
+              "case.toml:12:1: error: unknown key 'tau_mx' in [material.steel.decohesion]\n"
+              "   12 | tau_mx = \"820 MPa\"\n"
+              "      | ^~~~~~  did you mean 'tau_max'?\n"
+              "   keys here: G_I, G_II, band_factor, c_m, c_m_mixed, c_m_opening, c_m_shear, drop_transits, "
+              "energy_floor_factor, friction, mode, onset_strength, preset, q, s_max, smoothed_onset, snap_back, "
+              "tau_max, u0     (cleave keys material.decohesion)\n"
+              "2 errors");
+}
+
+TEST_F(CaseError, misspelt_section)
+{
+    const std::string text = complaint(with(valid_case, "[forces]", "[force]"));
+    EXPECT_TRUE(contains(text, "error: unknown key 'force' at the top of the case\n"
+                               "   42 | [force]\n"
+                               "      |  ^~~~~  did you mean 'forces'?\n"));
+    EXPECT_TRUE(contains(text, "(cleave keys case)"));
+}
+
+TEST_F(CaseError, wrong_unit)
+{
+    EXPECT_EQ(complaint(with(valid_case, "\"195 GPa\"", "\"195 mm\"")),
+              "case.toml:7:18: error: '195 mm' is a length, but 'youngs_modulus' is a stress\n"
+              "    7 | youngs_modulus = \"195 mm\"\n"
+              "      |                  ^~~~~~~~  expected stress > 0 [MPa], such as \"195 GPa\"\n"
+              "1 error");
+}
+
+TEST_F(CaseError, unknown_unit)
+{
+    EXPECT_TRUE(contains(complaint(with(valid_case, "195 GPa", "195 Gpa")),
+                         "case.toml:7:18: error: 'Gpa' is not a unit known here\n"));
+}
+
+TEST_F(CaseError, zone_outside_every_body)
+{
+    EXPECT_EQ(complaint(with(valid_case, "{ polyline = [\"A\", \"B\"], radius = 1.5 }",
+                             "{ sphere = { centre = [50, 0, 0], radius = 2 } }")),
+              "case.toml:29:9: error: zone 'between' lies outside every body\n"
+              "   29 | shape = { sphere = { centre = [50, 0, 0], radius = 2 } }\n"
+              "      |         ^~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~  refines nothing\n"
+              "1 error");
+}
+
+TEST_F(CaseError, zone_inside_a_hole)
+{
+    EXPECT_TRUE(contains(complaint(with(valid_case, "{ polyline = [\"A\", \"B\"], radius = 1.5 }",
+                                        "{ sphere = { centre = [8, 5, 1], radius = 1.4 } }")),
+                         "zone 'between' lies outside every body"));
+}
+
+TEST_F(CaseError, zone_level_beyond_the_finest)
+{
+    EXPECT_TRUE(contains(complaint(with(valid_case, "level = 1", "level = 2")),
+                         "case.toml:30:9: error: zone 'between' asks for level 2, but the finest is 1\n"
+                         "   30 | level = 2\n"
+                         "      |         ^  levels count from 0: set grid.levels = 3 for it\n"));
+}
+
+TEST_F(CaseError, velocity_not_a_number)
+{
+    EXPECT_EQ(complaint(with(valid_case, "[0, \"2 m/s\", \"free\"]", "[0, nan, \"free\"]")),
+              "case.toml:33:16: error: 'velocity' must be a finite number, not nan\n"
+              "   33 | velocity = [0, nan, \"free\"]\n"
+              "      |                ^~~  expected velocity [mm/ms]\n"
+              "1 error");
+}
+
+TEST_F(CaseError, infinity_only_where_it_means_something)
+{
+    EXPECT_EQ(complaint(with(valid_case, "s_max = \"4900 MPa\"", "s_max = inf")), "");
+    EXPECT_TRUE(contains(complaint(with(valid_case, "density = \"7.81e-3 g/mm^3\"", "density = inf")),
+                         "'density' must be a finite number, not inf"));
+}
+
+TEST_F(CaseError, missing_file)
+{
+    try {
+        (void)io::read_case(directory() / "none.toml");
+        FAIL();
+    } catch (const core::FileError& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  "cannot read the case file '" + (directory() / "none.toml").string() + "': no such file");
+    }
+}
+
+TEST_F(CaseError, missing_include)
+{
+    EXPECT_TRUE(contains(complaint("include = \"other.toml\"\nunits = \"mm-g-ms\"\n"),
+                         "case.toml:1:11: error: cannot read the included file"));
+}
+
+TEST_F(CaseError, include_circle)
+{
+    EXPECT_TRUE(contains(complaint("include = \"case.toml\"\n"), "includes itself"));
+}
+
+TEST_F(CaseError, position_in_an_included_file)
+{
+    write(with(valid_case, "poisson_ratio = 0.3", "poisson_ratio = 0.5"), "common.toml");
+    EXPECT_TRUE(contains(complaint("include = \"common.toml\"\n[grid]\ncell = 0.5\n"),
+                         "common.toml:8:17: error: 'poisson_ratio' is out of range: 0.5\n"
+                         "    8 | poisson_ratio = 0.5\n"
+                         "      |                 ^~~  expected number without unit above -1 and below 0.5\n"));
+}
+
+TEST_F(CaseError, several_at_once)
+{
+    std::string text = with(valid_case, "cell = 1\n", "cell = 1\nparticles_per_cell = 10\n");
+    text = with(text, "poisson_ratio = 0.3", "poisson_ratio = \"high\"");
+    text = with(text, "at = 0", "at = -0.3");
+    text = with(text, "upper = \"pin\"", "upper = \"pn\"");
+    const std::string all = complaint(text);
+    EXPECT_TRUE(contains(all, "case.toml:4:22: error: particles_per_cell = 10 is not a cube number"));
+    EXPECT_TRUE(contains(all, "case.toml:9:17: error: 'high' does not begin with a number"));
+    EXPECT_TRUE(contains(all, "case.toml:27:6: error: the symmetry plane z = -0.3 is not on a node plane of level 0\n"
+                              "   27 | at = -0.3\n"
+                              "      |      ^~~~  nearest: 0\n"));
+    EXPECT_TRUE(contains(all, "error: there is no load 'pn'\n"));
+    EXPECT_TRUE(contains(all, "did you mean 'pin'?"));
+    EXPECT_TRUE(contains(all, "\n4 errors"));
+}
+
+TEST_F(CaseError, syntax)
+{
+    EXPECT_TRUE(contains(complaint("units = \"mm-g-ms\"\n[grid\ncell = 1\n"), "case.toml:2:6: error: "));
+}
+
+TEST_F(CaseError, units_must_be_declared)
+{
+    EXPECT_TRUE(contains(complaint(with(valid_case, "units = \"mm-g-ms\"\n", "")), "error: missing key 'units'"));
+    EXPECT_TRUE(contains(complaint(with(valid_case, "mm-g-ms", "SI")), "'SI' is not a value of 'units'"));
+}
+
+TEST_F(CaseError, unknown_names)
+{
+    EXPECT_TRUE(contains(complaint(with(valid_case, "material = \"steel\"", "material = \"stel\"")),
+                         "there is no material 'stel'"));
+    EXPECT_TRUE(contains(complaint(with(valid_case, "{ polyline = [\"A\", \"B\"]", "{ polyline = [\"A\", \"Q\"]")),
+                         "there is no feature 'Q'"));
+    EXPECT_TRUE(contains(complaint(std::string(valid_case) + "[output.particles]\nfields = [\"damge\"]\n"),
+                         "did you mean 'damage'?"));
+}
+
+TEST_F(CaseError, shapes)
+{
+    const auto with_zone = [](const std::string& shape) {
+        return with(valid_case, "{ polyline = [\"A\", \"B\"], radius = 1.5 }", shape);
+    };
+    EXPECT_TRUE(contains(complaint(with_zone("{ box = { lower = [0, 0, 0], upper = [1, 0, 1] } }")),
+                         "a box needs upper > lower"));
+    EXPECT_TRUE(contains(complaint(with_zone("{ sphere = { centre = [0, 0, 0], radius = -1 } }")),
+                         "'radius' is out of range: -1"));
+    EXPECT_TRUE(
+        contains(complaint(with_zone("{ spere = { centre = [0, 0, 0], radius = 1 } }")), "did you mean 'sphere'?"));
+    EXPECT_TRUE(contains(complaint(with_zone("{ union = [] }")), "list of at least one shape"));
+    EXPECT_TRUE(contains(complaint(with_zone("{ polyline = [\"A\", \"B\"] }")), "a polyline needs a radius"));
+    EXPECT_TRUE(contains(complaint(with_zone("\"sphere\"")), "'refine.zone.shape' must be a shape"));
+    EXPECT_TRUE(contains(complaint(with_zone("{ half_space = { point = [0, 0, 0], normal = [0, 0, 0] } }")),
+                         "a normal that is not zero"));
+}
+
+TEST_F(CaseError, material_values)
+{
+    EXPECT_TRUE(contains(complaint(with(valid_case, "7.81e-3 g/mm^3", "-1 g/mm^3")), "'density' is out of range: -1"));
+    EXPECT_TRUE(contains(complaint(with(valid_case, "yield_stress = 1100", "yield_stress = 0")),
+                         "'yield_stress' is out of range: 0"));
+    EXPECT_TRUE(contains(complaint(with(valid_case, "yield_stress = 1100", "yield_stress = 1\ntangent_modulus = 2e5")),
+                         "is not below youngs_modulus"));
+    EXPECT_TRUE(contains(complaint(with(valid_case, "u0 =", "G_I = 1\nu0 =")), "either u0 or the energies"));
+    EXPECT_TRUE(contains(complaint(with(valid_case, "u0 = \"2e-7 m\"", "preset = \"objective\"")),
+                         "needs the fracture energies"));
+}
+
+TEST_F(CaseError, loads)
+{
+    EXPECT_TRUE(
+        contains(complaint(with(valid_case, "pin = { feature = \"A\" }", "pin = { centre = [100, 0, 0], radius = 1 }")),
+                 "load 'pin' touches no body"));
+    EXPECT_TRUE(
+        contains(complaint(with(valid_case, "velocity = 0\naxis = \"y\"", "velocity = 0")), "needs a direction"));
+    EXPECT_TRUE(contains(complaint(with(valid_case, "ramp = { time = \"50 us\" }", "ramp = { kind = \"linear\" }")),
+                         "this ramp needs a time > 0"));
+}
+
+TEST_F(CaseError, forces_need_a_load)
+{
+    EXPECT_TRUE(contains(complaint(with(valid_case, "upper = \"pin\"\nlower = \"base\"", "axis = \"y\"")),
+                         "[forces] names no load"));
+}
+
+TEST_F(CaseError, body_across_a_symmetry_plane)
+{
+    EXPECT_TRUE(contains(complaint(with(valid_case, "at = 0", "at = 1")),
+                         "body 'plate' lies on both sides of the symmetry plane z = 1"));
+}
+
+TEST_F(CaseError, gauge_far_from_the_material)
+{
+    EXPECT_TRUE(contains(complaint(with(valid_case, "upper = [5, 6, 0]", "upper = [5, 16, 0]")),
+                         "gauge point 'upper' lies 6 mm outside every body"));
+}
+
+TEST_F(CaseError, opening_without_a_gauge)
+{
+    const std::string text = with(valid_case, "[gauge.cod]\nupper = [5, 6, 0]\nlower = [5, 4, 0]\n", "");
+    EXPECT_TRUE(contains(complaint(text), "the end by opening needs a gauge"));
+}
+
+TEST_F(CaseError, criteria_are_refused)
+{
+    EXPECT_TRUE(contains(complaint(std::string(valid_case) + "[[refine.criterion]]\nfield = \"damage\"\n"),
+                         "refinement by criteria is not in this version"));
+}
+
+TEST_F(CaseError, overrides)
+{
+    EXPECT_TRUE(contains(complaint(valid_case, {"grid.cel=0.5"}), "--set:1:6: error: unknown key 'cel' in [grid]\n"
+                                                                  "    1 | grid.cel=0.5\n"
+                                                                  "      |      ^~~  did you mean 'cell'?\n"));
+    EXPECT_TRUE(contains(complaint(valid_case, {"grid.cell"}), "an override reads key=value"));
+    EXPECT_TRUE(contains(complaint(valid_case, {"grid.cell=5 MPa"}), "'5 MPa' is a stress, but 'cell' is a length"));
+    EXPECT_TRUE(contains(complaint(valid_case, {"refine.zone.3.level=1"}), "no item '3' here"));
+}
+} // namespace

@@ -1,0 +1,113 @@
+/// material/rotation.h: exact orthogonality, norms (scene B20), the Jaumann curve in simple shear (B19), lanes.
+#include "material/elastic.h"
+#include "tests/material/samples.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace material
+{
+TEST(Rotation, is_orthogonal_and_proper)
+{
+    Samples samples;
+    for (int k = 0; k < 100; ++k) {
+        const Mat r = samples.rotation();
+        const Mat product = r * transposed(r);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) EXPECT_NEAR(product(i, j), i == j ? 1 : 0, 1e-14);
+        EXPECT_NEAR(core::determinant(r), 1, 1e-14);
+    }
+}
+
+TEST(Rotation, is_the_cayley_map_of_the_spin)
+{
+    Samples samples;
+    const Mat gradient = samples.matrix(0.3);
+    const Vec a = spin_increment(gradient);
+    const Mat r = incremental_rotation(a);
+    // (I - w/2) R x = (I + w/2) x
+    const Vec x = samples.vector(1);
+    const Vec rx = r * x;
+    const Vec left = rx - 0.5 * core::cross(a, rx), right = x + 0.5 * core::cross(a, x);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(left[i], right[i], 1e-15);
+    // The axial vector is that of the skew part.
+    for (int i = 0; i < 3; ++i) {
+        const Vec skew = 0.5 * (gradient * x - transposed(gradient) * x);
+        EXPECT_NEAR(core::cross(a, x)[i], skew[i], 1e-15);
+    }
+}
+
+TEST(Rotation, turns_by_the_spin_to_second_order)
+{
+    const double angle = 1e-2;
+    const Mat r = incremental_rotation<double>({{0, 0, angle}});
+    EXPECT_NEAR(std::atan2(r(1, 0), r(0, 0)), angle, 1.01 * std::pow(angle, 3) / 12);
+}
+
+/// B20: a full turn in N steps changes no invariant; the phase error falls with N^2.
+TEST(Rotation, keeps_the_norm_of_a_stress_through_a_full_turn)
+{
+    const Sym start{{300, -100, 50, 120, -60, 30}};
+    double last_phase_error = 0;
+    for (const int steps : {36, 360, 3600}) {
+        const Mat r = incremental_rotation<double>({{0, 0, 2 * std::numbers::pi / steps}});
+        Sym stress = start;
+        for (int i = 0; i < steps; ++i) stress = core::rotated(r, stress);
+        EXPECT_NEAR(norm(stress) / norm(start), 1, 1e-12) << steps;
+        EXPECT_NEAR(core::trace(stress), core::trace(start), 1e-9) << steps;
+        const double phase_error = norm(stress - start) / norm(start);
+        if (last_phase_error > 0) {
+            EXPECT_NEAR(last_phase_error / phase_error, 100, 5);
+        }
+        last_phase_error = phase_error;
+    }
+}
+
+/// B19: elastic simple shear under the Jaumann rate, sigma_12 = mu sin gamma, sigma_11 = mu (1 - cos gamma).
+TEST(Rotation, gives_the_jaumann_stress_of_simple_shear)
+{
+    const Elastic elastic = steel();
+    const auto lame = lame_constants<double>(elastic);
+    const double mu = elastic.shear_modulus();
+    const int steps = 20000;
+    const double dg = 10.0 / steps;
+    Mat gradient{};
+    gradient(0, 1) = dg;
+    const Mat half_turn = incremental_rotation(spin_increment(Mat{{0, dg / 2, 0, 0, 0, 0, 0, 0, 0}}));
+    Sym stress{};
+    for (int i = 1; i <= steps; ++i) {
+        // Rate at mid-step: half of the turn before the strain, half after it.
+        stress = core::rotated(half_turn,
+                               elastic_trial(core::rotated(half_turn, stress), core::symmetric_part(gradient), lame));
+        if (i % 1000 != 0) continue;
+        const double gamma = i * dg;
+        EXPECT_NEAR(stress[3] / mu, std::sin(gamma), 1e-6);
+        EXPECT_NEAR(stress[0] / mu, 1 - std::cos(gamma), 1e-6);
+        EXPECT_NEAR(stress[1], -stress[0], 1e-9 * mu);
+    }
+}
+
+TEST(Rotation, lanes_agree_with_scalar)
+{
+    using Lanes = core::Pack<double, core::native_lanes<double>>;
+    Samples samples;
+    core::Mat<Lanes> gradient{};
+    core::Sym<Lanes> stress{};
+    std::array<Mat, Lanes::lanes> gradients;
+    std::array<Sym, Lanes::lanes> stresses;
+    for (int lane = 0; lane < Lanes::lanes; ++lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        gradients[l] = samples.matrix(0.1);
+        stresses[l] = samples.tensor(1);
+        for (std::size_t i = 0; i < 9; ++i) gradient.m[i].v[lane] = gradients[l].m[i];
+        for (std::size_t i = 0; i < 6; ++i) stress.s[i].v[lane] = stresses[l].s[i];
+    }
+    const auto turned = core::rotated(incremental_rotation(spin_increment(gradient)), stress);
+    for (int lane = 0; lane < Lanes::lanes; ++lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        const Sym expected = core::rotated(incremental_rotation(spin_increment(gradients[l])), stresses[l]);
+        for (int i = 0; i < 6; ++i) EXPECT_NEAR(turned[i][lane], expected[i], 1e-15);
+    }
+}
+} // namespace material

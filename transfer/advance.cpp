@@ -1,0 +1,86 @@
+#include "core/parallel.h"
+#include "transfer/advance_cell.h"
+#include "transfer/passes.h"
+#include "transfer/scatter_leaf.h"
+
+namespace transfer
+{
+namespace
+{
+template <class Visit>
+void with_stress_update(const PassOptions& options, const Visit& visit)
+{
+    with_scheme(options, [&]<Formulation F, Transfer T>() {
+        options.stress_update == StressUpdate::usl ? visit.template operator()<F, T, StressUpdate::usl>()
+                                                   : visit.template operator()<F, T, StressUpdate::musl>();
+    });
+}
+
+void advance_leaf(const PassOptions& options, const LawTable& laws, std::size_t leaf, const grid::Levels& levels,
+                  particles::Particles& particles, LeafOutcome& outcome)
+{
+    const std::uint32_t* start = levels.cell_start.data() + leaf * grid::leaf_cells;
+    with_stress_update(options, [&]<Formulation F, Transfer T, StressUpdate S>() {
+        for (int c = 0; c < grid::leaf_cells; ++c)
+            if (start[c] != start[c + 1])
+                advance_cell<F, T, S>(options, laws, cell_frame(levels, levels.leaves[leaf], c), Visitors::residents,
+                                      levels.motions(leaf), start[c], start[c + 1], particles, outcome);
+    });
+}
+
+void advance_strays(const PassOptions& options, const LawTable& laws, const Strays& strays, const grid::Levels& levels,
+                    particles::Particles& particles, std::vector<LeafOutcome>& outcome)
+{
+    if (strays.size() == 0) return;
+    core::parallel_for(strays.run.size() - 1, [&](std::size_t r) {
+        with_stress_update(options, [&]<Formulation F, Transfer T, StressUpdate S>() {
+            for (std::uint32_t s = strays.run[r]; s < strays.run[r + 1]; ++s) {
+                const auto leaf = static_cast<std::size_t>(strays.leaf[s]);
+                const std::uint32_t p = strays.particle[s];
+                advance_cell<F, T, S>(options, laws, cell_frame(levels, levels.leaves[leaf], strays.cell[s]),
+                                      Visitors::stray, levels.motions(leaf), p, p + 1, particles, outcome[leaf]);
+            }
+        });
+    });
+}
+
+/// Give every starting particle its entry in the side table, in leaf order.
+void record_onsets(const std::vector<LeafOutcome>& outcome, particles::Particles& particles)
+{
+    for (const LeafOutcome& leaf : outcome)
+        for (const Onset& onset : leaf.onset) {
+            particles.crack[onset.particle] = static_cast<std::int32_t>(particles.cracks.size());
+            particles.cracks.push_back(onset.crack);
+        }
+}
+
+/// Who is away from its home cell now; once away, a particle stays a stray until the next ordering.
+std::vector<std::uint32_t> all_away(const std::vector<LeafOutcome>& outcome, const Strays& strays)
+{
+    std::vector<std::uint32_t> away = strays.particle;
+    for (const LeafOutcome& leaf : outcome) away.insert(away.end(), leaf.leaver.begin(), leaf.leaver.end());
+    return away;
+}
+} // namespace
+
+void advance_and_scatter(const PassOptions& options, const LawTable& laws, Strays& strays,
+                         particles::Particles& particles, grid::Levels& levels, std::vector<LeafWork>& leaf_work)
+{
+    std::vector<LeafOutcome> outcome(levels.leaves.size());
+    // Strays first: they still need the motion tiles, and a leaf's scatter must see only particles at home.
+    advance_strays(options, laws, strays, levels, particles, outcome);
+    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+        advance_leaf(options, laws, n, levels, particles, outcome[n]);
+        scatter_leaf(options, laws, particles, n, levels);
+    });
+    for (std::size_t n = 0; n < outcome.size(); ++n) {
+        leaf_work[n].plastic += outcome[n].work.plastic;
+        leaf_work[n].decohesion += outcome[n].work.decohesion;
+    }
+    record_onsets(outcome, particles);
+    if (options.formulation == Formulation::updated) {
+        assign(all_away(outcome, strays), particles, levels, strays);
+        scatter_strays(options, laws, strays, particles, levels);
+    }
+}
+} // namespace transfer

@@ -1,0 +1,247 @@
+/// Grid to particles for one cell (G2P) and the material update, in two stages because the dilatation is averaged over
+/// the cell in between.
+#pragma once
+
+#include "material/elastic.h"
+#include "material/onset.h"
+#include "material/rotation.h"
+#include "material/von_mises.h"
+#include "transfer/chunk.h"
+#include "transfer/passes.h"
+#include "transfer/separate_lanes.h"
+
+#include <algorithm>
+
+namespace transfer
+{
+/// What a leaf's task collects besides the columns it writes.
+struct LeafOutcome
+{
+    LeafWork work;                     // mJ, of this step
+    std::vector<std::uint32_t> leaver; // particles that have left their home cell in this step
+    std::vector<Onset> onset;          // particles that begin to separate
+};
+
+namespace detail
+{
+struct Kinematics
+{
+    core::Mat<Lanes> gradient_increment; // 1, L dt
+    Lanes volume;                        // mm^3, middle of the step
+    Lanes dilatation;                    // 1, tr(L dt)
+    LaneMask here;                       // lanes that are particles of this cell
+    LaneMask averaged;                   // those whose dilatation is averaged
+    LaneMask may_start;                  // after update_stress: near enough a strength for the exact test
+    LawLanes law;
+};
+
+[[gnu::always_inline]] inline void store_where(LaneMask keep, Lanes fresh, Lanes old, particles::Column& column,
+                                               std::size_t begin, int count)
+{
+    store(core::select(keep, fresh, old), column, begin, count);
+}
+
+/// Velocity gradient of the field in `column`, rows: component, columns: direction.
+[[gnu::always_inline]] inline core::Mat<Lanes> gradient(const CellField& field, int column,
+                                                        const LocalPosition<Lanes>& at, Lanes per_spacing,
+                                                        core::Vec<Lanes>& velocity)
+{
+    core::Mat<Lanes> g{};
+    for (int a = 0; a < 3; ++a) {
+        velocity[a] = value_and_slopes(field, column + a, at, g(a, 0), g(a, 1), g(a, 2));
+        for (int b = 0; b < 3; ++b) g(a, b) *= per_spacing;
+    }
+    return g;
+}
+
+/// F <- F + dt dF, and the increment L dt = dt dF F^{-1} at the middle of the step; `volume` becomes V0 J there.
+[[gnu::always_inline]] inline core::Mat<Lanes> advance_deformation(const core::Mat<Lanes>& rate_increment,
+                                                                   std::size_t begin, int count,
+                                                                   particles::Particles& particles, Lanes& volume)
+{
+    const auto f = load_all<core::Mat<Lanes>>(particles.deformation_gradient, begin, count);
+    core::Mat<Lanes> middle{};
+    for (std::size_t n = 0; n < 9; ++n) {
+        middle.m[n] = f.m[n] + Lanes(Real(0.5)) * rate_increment.m[n];
+        store(f.m[n] + rate_increment.m[n], particles.deformation_gradient[n], begin, count);
+    }
+    const core::Mat<Lanes> cof = core::cofactor(middle);
+    const Lanes jacobian = middle(0, 0) * cof(0, 0) + middle(0, 1) * cof(0, 1) + middle(0, 2) * cof(0, 2);
+    const Lanes per_jacobian = Lanes(Real(1)) / jacobian;
+    volume *= jacobian;
+    core::Mat<Lanes> l{};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            l(i, j) = per_jacobian * (rate_increment(i, 0) * cof(j, 0) + rate_increment(i, 1) * cof(j, 1) +
+                                      rate_increment(i, 2) * cof(j, 2));
+    return l;
+}
+
+[[gnu::noinline]] inline void note_leavers(LaneMask left, std::size_t begin, int count, particles::Particles& particles,
+                                           LeafOutcome& outcome)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!left[i]) continue;
+        const std::size_t p = begin + static_cast<std::size_t>(i);
+        particles.away[p] = 1;
+        outcome.leaver.push_back(static_cast<std::uint32_t>(p));
+    }
+}
+
+/// Stage one: move the particles, update velocity and deformation, leave what the material needs in `k`.
+template <Formulation F, Transfer T, StressUpdate S>
+[[gnu::always_inline]] inline void move(const PassOptions& options, const LawTable& laws, const CellFrame& frame,
+                                        Visitors visitors, const CellField& field, std::size_t begin, int count,
+                                        particles::Particles& particles, LeafOutcome& outcome, Kinematics& k)
+{
+    const auto x = load_all<core::Vec<Lanes>>(particles.position, begin, count);
+    LocalPosition<Lanes> at{};
+    k.here = present<F>(visitors, particles, begin, count);
+    if constexpr (F == Formulation::total) {
+        at = local_position(frame, load_all<core::Vec<Lanes>>(particles.rest_position, begin, count));
+    } else {
+        at = local_position(frame, x);
+    }
+    const Lanes dt(options.dt);
+    const Lanes per_spacing(frame.per_spacing);
+    core::Vec<Lanes> grid_velocity{};
+    core::Mat<Lanes> g = gradient(field, velocity_column, at, per_spacing, grid_velocity);
+    if constexpr (S == StressUpdate::usl) {
+        for (int a = 0; a < 3; ++a) {
+            const auto axis = static_cast<std::size_t>(a);
+            const Lanes old = load(particles.velocity[axis], begin, count);
+            Lanes fresh = grid_velocity[a];
+            if constexpr (T == Transfer::flip) {
+                fresh = old + value(field, change_column + a, at);
+                if (options.pic_fraction > 0) fresh += Lanes(options.pic_fraction) * (grid_velocity[a] - fresh);
+            }
+            store_where(k.here, fresh, old, particles.velocity[axis], begin, count);
+        }
+        if constexpr (T == Transfer::apic)
+            for (std::size_t n = 0; n < 9; ++n)
+                store_where(k.here, g.m[n], load(particles.affine[n], begin, count), particles.affine[n], begin, count);
+    } else {
+        core::Vec<Lanes> remapped{};
+        g = gradient(field, change_column, at, per_spacing, remapped);
+    }
+    core::Vec<Lanes> moved{};
+    for (int a = 0; a < 3; ++a) {
+        moved[a] = core::select(k.here, x[a] + dt * grid_velocity[a], x[a]);
+        store(moved[a], particles.position[static_cast<std::size_t>(a)], begin, count);
+    }
+    k.volume = load(particles.rest_volume, begin, count);
+    for (Lanes& entry : g.m) entry *= dt;
+    if constexpr (F == Formulation::total) {
+        k.gradient_increment = advance_deformation(g, begin, count, particles, k.volume);
+    } else {
+        k.gradient_increment = g;
+        const Lanes ratio = load(particles.volume_ratio, begin, count);
+        const Lanes half = Lanes(Real(0.5)) * (g(0, 0) + g(1, 1) + g(2, 2));
+        const Lanes fresh = ratio * (Lanes(Real(1)) + half) / (Lanes(Real(1)) - half);
+        store_where(k.here, fresh, ratio, particles.volume_ratio, begin, count);
+        k.volume *= Lanes(Real(0.5)) * (ratio + fresh);
+        const LaneMask left = k.here & !inside(frame, moved);
+        if (visitors == Visitors::residents && core::any(left)) note_leavers(left, begin, count, particles, outcome);
+    }
+    k.dilatation = k.gradient_increment(0, 0) + k.gradient_increment(1, 1) + k.gradient_increment(2, 2);
+    k.law = law_lanes(laws, particles, begin, count);
+    k.averaged = k.here & k.law.averaged;
+    if (laws.any_decohesion && !particles.cracks.empty()) k.averaged = k.averaged & intact(particles, begin, count);
+}
+
+/// Strain increment with the cell's mean dilatation on averaged lanes.
+[[gnu::always_inline]] inline core::Sym<Lanes> strain_increment(const Kinematics& k, Real mean_dilatation)
+{
+    core::Sym<Lanes> e = core::symmetric_part(k.gradient_increment);
+    const Lanes shift =
+        core::select(k.averaged, (Lanes(mean_dilatation) - k.dilatation) * Lanes(Real(1) / 3), Lanes(Real(0)));
+    for (int a = 0; a < 3; ++a) e[a] += shift;
+    return e;
+}
+
+/// Stage two: stress, plastic strain, decohesion.
+[[gnu::always_inline]] inline void update_stress(const PassOptions& options, const LawTable& laws, Kinematics& k,
+                                                 Real mean_dilatation, std::size_t begin, int count,
+                                                 particles::Particles& particles, LeafOutcome& outcome)
+{
+    const auto old = load_all<core::Sym<Lanes>>(particles.stress, begin, count);
+    const Lanes old_strain = load(particles.eq_plastic_strain, begin, count);
+    const core::Sym<Lanes> strain = strain_increment(k, mean_dilatation);
+    const core::Mat<Lanes> rotation = material::incremental_rotation(material::spin_increment(k.gradient_increment));
+    const Lanes three_shear = Lanes(Real(3)) * k.law.shear;
+    const core::Sym<Lanes> trial = material::elastic_trial(
+        core::rotated(rotation, old), strain, material::LameConstants<Lanes>{k.law.lame, k.law.shear + k.law.shear});
+    const material::PlasticStep<Lanes> step =
+        material::radial_return(trial, old_strain,
+                                material::PlasticConstants<Lanes>{k.law.yield, k.law.hardening, three_shear,
+                                                                  Lanes(Real(1)) / (three_shear + k.law.hardening)});
+    Lanes plastic_work = core::select(k.here, step.work * k.volume, Lanes(Real(0)));
+
+    for (int n = 0; n < 6; ++n)
+        store_where(k.here, step.stress[n], old[n], particles.stress[static_cast<std::size_t>(n)], begin, count);
+    store_where(k.here, step.eq_plastic_strain, old_strain, particles.eq_plastic_strain, begin, count);
+    if (!laws.any_decohesion) {
+        outcome.work.plastic += core::sum(plastic_work);
+        return;
+    }
+    if (!particles.cracks.empty()) {
+        const SeparationInput input{options, laws, begin, count, k.here, strain, rotation, old, old_strain, k.volume};
+        outcome.work.decohesion += separate_lanes(input, particles, plastic_work);
+    }
+    outcome.work.plastic += core::sum(plastic_work);
+    k.may_start = k.here & material::may_start(step.stress, k.law.tensile_onset, k.law.shear_onset);
+}
+
+/// Gradient increments of the first `count` particles of a group, lane by lane.
+inline void unpack_gradients(const Kinematics* k, std::size_t count, core::Mat<Real>* gradient)
+{
+    for (std::size_t p = 0; p < count; ++p)
+        for (std::size_t n = 0; n < 9; ++n)
+            gradient[p].m[n] = k[p / Lanes::lanes].gradient_increment.m[n][static_cast<int>(p % Lanes::lanes)];
+}
+} // namespace detail
+
+/// Advance the particles [begin, end) that are served.
+template <Formulation F, Transfer T, StressUpdate S>
+void advance_cell(const PassOptions& options, const LawTable& laws, const CellFrame& frame, Visitors visitors,
+                  const grid::NodeMotion* tile, std::size_t begin, std::size_t end, particles::Particles& particles,
+                  LeafOutcome& outcome)
+{
+    constexpr std::size_t group = 64; // particles averaged together at most; more do not meet in a cell
+    constexpr std::size_t chunks = group / Lanes::lanes;
+    CellField field;
+    read_cell(tile + frame.node, field);
+    for (std::size_t first = begin; first < end; first += group) {
+        const std::size_t last = std::min(end, first + group);
+        detail::Kinematics k[chunks];
+        Real volume = 0;
+        Real dilated = 0;
+        std::size_t c = 0;
+        for (std::size_t p = first; p < last; p += Lanes::lanes, ++c) {
+            const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
+            // Two copies: without a tail the compiler drops every test of `count`.
+            count == Lanes::lanes
+                ? detail::move<F, T, S>(options, laws, frame, visitors, field, p, Lanes::lanes, particles, outcome,
+                                        k[c])
+                : detail::move<F, T, S>(options, laws, frame, visitors, field, p, count, particles, outcome, k[c]);
+            volume += core::sum(core::select(k[c].averaged, k[c].volume, Lanes(Real(0))));
+            dilated += core::sum(core::select(k[c].averaged, k[c].volume * k[c].dilatation, Lanes(Real(0))));
+        }
+        const Real mean_dilatation = volume > 0 ? dilated / volume : Real(0);
+        bool near_onset = false;
+        c = 0;
+        for (std::size_t p = first; p < last; p += Lanes::lanes, ++c) {
+            const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
+            count == Lanes::lanes
+                ? detail::update_stress(options, laws, k[c], mean_dilatation, p, Lanes::lanes, particles, outcome)
+                : detail::update_stress(options, laws, k[c], mean_dilatation, p, count, particles, outcome);
+            near_onset = near_onset || (laws.any_decohesion && core::any(k[c].may_start));
+        }
+        if (near_onset) {
+            core::Mat<Real> gradient[group];
+            detail::unpack_gradients(k, last - first, gradient);
+            start_cracks(options, laws, particles, first, last, Real(1) / frame.per_spacing, gradient, outcome.onset);
+        }
+    }
+}
+} // namespace transfer

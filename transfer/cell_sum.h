@@ -1,0 +1,122 @@
+/// Scatter of the particles of one cell to its eight nodes: lanes are nodes, particle quantities are broadcast.
+///
+/// Thirteen accumulators stay in registers for all particles of a cell (hence the forced inlining): mass, momentum (3),
+/// and the nine products stress x weight slope. The sign of each node's slope and 1 / spacing are applied once per
+/// cell, one 8x8 transpose turns quantities of all nodes into cache lines of single nodes, and eight lines are added to
+/// the tile. No horizontal sums.
+#pragma once
+
+#include "core/simd.h"
+#include "core/tensor.h"
+#include "grid/levels.h"
+
+namespace transfer
+{
+/// One lane per node of the cell: lane 4i + 2j + k is corner (i, j, k).
+using NodeLanes = core::Pack<Real, 8>;
+
+namespace detail
+{
+inline constexpr NodeLanes::Lanes corner_x = {0, 0, 0, 0, 1, 1, 1, 1};
+inline constexpr NodeLanes::Lanes corner_y = {0, 0, 1, 1, 0, 0, 1, 1};
+inline constexpr NodeLanes::Lanes corner_z = {0, 1, 0, 1, 0, 1, 0, 1};
+} // namespace detail
+
+/// One-dimensional weights of the eight corners for a coordinate t: 1 - t on the lower, t on the upper side.
+[[gnu::always_inline]] inline NodeLanes corner_weight(NodeLanes::Lanes upper, Real t)
+{
+    return NodeLanes(NodeLanes::Lanes(Real(1) - upper)) +
+           NodeLanes(NodeLanes::Lanes(2 * upper - Real(1))) * NodeLanes(t);
+}
+
+struct CellSum
+{
+    NodeLanes mass{Real(0)};
+    core::Vec<NodeLanes> momentum{{NodeLanes(Real(0)), NodeLanes(Real(0)), NodeLanes(Real(0))}};
+    core::Mat<NodeLanes> force{{NodeLanes(Real(0)), NodeLanes(Real(0)), NodeLanes(Real(0)), NodeLanes(Real(0)),
+                                NodeLanes(Real(0)), NodeLanes(Real(0)), NodeLanes(Real(0)), NodeLanes(Real(0)),
+                                NodeLanes(Real(0))}};
+};
+
+/// Weights of one particle on the eight corners.
+struct CornerWeights
+{
+    NodeLanes w, slope_x, slope_y, slope_z; // slopes without sign and without 1 / spacing
+};
+
+[[gnu::always_inline]] inline CornerWeights corner_weights(Real xi, Real eta, Real zeta)
+{
+    const NodeLanes wx = corner_weight(detail::corner_x, xi);
+    const NodeLanes wy = corner_weight(detail::corner_y, eta);
+    const NodeLanes wz = corner_weight(detail::corner_z, zeta);
+    const NodeLanes yz = wy * wz;
+    return {wx * yz, yz, wx * wz, wx * wy};
+}
+
+/// `stress_volume` is V sigma (rows: component, columns: direction of the gradient), or V0 P in the total formulation.
+[[gnu::always_inline]] inline void add_force(const CornerWeights& weights, const core::Mat<Real>& stress_volume,
+                                             CellSum& sum)
+{
+    for (int a = 0; a < 3; ++a) {
+        sum.force(a, 0) += NodeLanes(stress_volume(a, 0)) * weights.slope_x;
+        sum.force(a, 1) += NodeLanes(stress_volume(a, 1)) * weights.slope_y;
+        sum.force(a, 2) += NodeLanes(stress_volume(a, 2)) * weights.slope_z;
+    }
+}
+
+[[gnu::always_inline]] inline void add_momentum(const CornerWeights& weights, const core::Vec<Real>& momentum,
+                                                CellSum& sum)
+{
+    for (int a = 0; a < 3; ++a) sum.momentum[a] += NodeLanes(momentum[a]) * weights.w;
+}
+
+/// Affine part m C (x_i - x_p) of APIC; `rate` is m C spacing.
+[[gnu::always_inline]] inline void add_affine(const CornerWeights& weights, Real xi, Real eta, Real zeta,
+                                              const core::Mat<Real>& rate, CellSum& sum)
+{
+    const NodeLanes dx = weights.w * (NodeLanes(detail::corner_x) - NodeLanes(xi));
+    const NodeLanes dy = weights.w * (NodeLanes(detail::corner_y) - NodeLanes(eta));
+    const NodeLanes dz = weights.w * (NodeLanes(detail::corner_z) - NodeLanes(zeta));
+    for (int a = 0; a < 3; ++a)
+        sum.momentum[a] += NodeLanes(rate(a, 0)) * dx + NodeLanes(rate(a, 1)) * dy + NodeLanes(rate(a, 2)) * dz;
+}
+
+/// Eight vectors of eight: rows become columns, in three rounds of pairwise shuffles.
+[[gnu::always_inline]] inline void transpose(NodeLanes (&r)[8])
+{
+    NodeLanes::Lanes pair[8], quad[8];
+    for (int i = 0; i < 8; i += 2) {
+        pair[i] = __builtin_shufflevector(r[i].v, r[i + 1].v, 0, 8, 2, 10, 4, 12, 6, 14);
+        pair[i + 1] = __builtin_shufflevector(r[i].v, r[i + 1].v, 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    for (int half = 0; half < 8; half += 4)
+        for (int i = half; i < half + 2; ++i) {
+            quad[i] = __builtin_shufflevector(pair[i], pair[i + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+            quad[i + 2] = __builtin_shufflevector(pair[i], pair[i + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    for (int i = 0; i < 4; ++i) {
+        r[i].v = __builtin_shufflevector(quad[i], quad[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+        r[i + 4].v = __builtin_shufflevector(quad[i], quad[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+}
+
+/// Add the cell's sums to its nodes.
+/// @param per_spacing  1 / spacing
+/// @param node         the cell's lower-corner node in a sum tile
+[[gnu::always_inline]] inline void write_cell(const CellSum& sum, Real per_spacing, grid::NodeSum* node)
+{
+    // f = - V sigma grad w; the slope's sign is -1 on the lower and +1 on the upper corners.
+    const NodeLanes sign_x(NodeLanes::Lanes((Real(1) - 2 * detail::corner_x) * per_spacing));
+    const NodeLanes sign_y(NodeLanes::Lanes((Real(1) - 2 * detail::corner_y) * per_spacing));
+    const NodeLanes sign_z(NodeLanes::Lanes((Real(1) - 2 * detail::corner_z) * per_spacing));
+    NodeLanes line[8] = {sum.mass,           sum.momentum[0],    sum.momentum[1],    sum.momentum[2],
+                         NodeLanes(Real(0)), NodeLanes(Real(0)), NodeLanes(Real(0)), NodeLanes(Real(0))};
+    for (int a = 0; a < 3; ++a)
+        line[4 + a] = sum.force(a, 0) * sign_x + sum.force(a, 1) * sign_y + sum.force(a, 2) * sign_z;
+    transpose(line);
+    for (int n = 0; n < 8; ++n) {
+        Real* target = &node[grid::tile_index(n >> 2, n >> 1 & 1, n & 1)].mass;
+        (NodeLanes::load(target) + line[n]).store(target);
+    }
+}
+} // namespace transfer

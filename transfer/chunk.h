@@ -1,0 +1,181 @@
+/// A chunk: up to `Lanes::lanes` particles of one cell, one per SIMD lane, and how its columns become lanes.
+#pragma once
+
+#include "core/simd.h"
+#include "core/tensor.h"
+#include "grid/levels.h"
+#include "particles/particles.h"
+#include "transfer/cell_field.h"
+#include "transfer/law_table.h"
+#include "transfer/scheme.h"
+#include "transfer/solid_share.h"
+
+namespace transfer
+{
+using Lanes = core::Pack<Real, core::native_lanes<Real>>;
+using LaneMask = core::Mask<Real, Lanes::lanes>;
+
+/// Where a cell sits: what turns a position into local coordinates.
+struct CellFrame
+{
+    std::array<Real, 3> lower{}; // 1, index of the lower corner on its level
+    Vec3 origin = Vec3::Zero();  // mm, of the lattice
+    Real per_spacing = 1;        // 1/mm
+    int node = 0;                // tile index of the lower corner
+};
+
+inline CellFrame cell_frame(const grid::Levels& levels, const grid::Leaf& leaf, int cell)
+{
+    const int i = cell >> 6, j = cell >> 3 & 7, k = cell & 7;
+    CellFrame frame;
+    frame.lower = {Real(leaf.origin[0] + i), Real(leaf.origin[1] + j), Real(leaf.origin[2] + k)};
+    frame.origin = levels.origin;
+    frame.per_spacing = Real(1) / levels.spacing(leaf.level);
+    frame.node = grid::tile_index(i, j, k);
+    return frame;
+}
+
+template <std::size_t N>
+using Columns = std::array<particles::Column, N>;
+
+[[gnu::always_inline]] inline Lanes load(const particles::Column& column, std::size_t begin, int count)
+{
+    return core::load_tail<Real, Lanes::lanes>(column.data() + begin, count);
+}
+
+template <class Tensor, std::size_t N>
+[[gnu::always_inline]] inline Tensor load_all(const Columns<N>& columns, std::size_t begin, int count)
+{
+    return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline))
+    {
+        return Tensor{{load(columns[I], begin, count)...}};
+    }
+    (std::make_index_sequence<N>{});
+}
+
+/// Write the first `count` lanes.
+[[gnu::always_inline]] inline void store(Lanes lanes, particles::Column& column, std::size_t begin, int count)
+{
+    core::store_tail(lanes, column.data() + begin, count);
+}
+
+/// Weights are taken where the formulation says: at rest or at current positions.
+template <Formulation F>
+const Columns<3>& weight_position(const particles::Particles& particles)
+{
+    if constexpr (F == Formulation::total)
+        return particles.rest_position;
+    else
+        return particles.position;
+}
+
+inline LocalPosition<Lanes> local_position(const CellFrame& frame, const core::Vec<Lanes>& x)
+{
+    const auto local = [&](int a) {
+        return (x[a] - Lanes(frame.origin[a])) * Lanes(frame.per_spacing) -
+               Lanes(frame.lower[static_cast<unsigned>(a)]);
+    };
+    return {local(0), local(1), local(2)};
+}
+
+/// Lanes whose position lies in the cell: the test of grid::Refinement::locate.
+inline LaneMask inside(const CellFrame& frame, const core::Vec<Lanes>& x)
+{
+    const auto between = [&](int a) {
+        const Lanes scaled = (x[a] - Lanes(frame.origin[a])) * Lanes(frame.per_spacing);
+        const Real lower = frame.lower[static_cast<unsigned>(a)];
+        return (scaled >= Lanes(lower)) & (scaled < Lanes(lower + 1));
+    };
+    return between(0) & between(1) & between(2);
+}
+
+/// Mask from a test of each of the first `count` lanes; out of the way of the common case, where no lane differs.
+template <class Test>
+[[gnu::noinline]] LaneMask lanes_where(const Test& test, int count)
+{
+    LaneMask mask{};
+    for (int i = 0; i < count; ++i) mask.v[i] = test(i) ? -1 : 0;
+    return mask;
+}
+
+inline bool any_set(const std::uint8_t* flags, int count)
+{
+    std::uint8_t any = 0;
+    for (int i = 0; i < count; ++i) any = static_cast<std::uint8_t>(any | flags[i]);
+    return any != 0;
+}
+
+/// Whom a visit to a cell serves.
+enum class Visitors
+{
+    residents, // the particles stored under the cell that have not left it
+    stray,     // one particle that is stored elsewhere
+};
+
+/// Lanes to serve among the first `count`. In the total formulation nobody ever leaves.
+template <Formulation F>
+[[gnu::always_inline]] inline LaneMask present(Visitors visitors, const particles::Particles& particles,
+                                               std::size_t begin, int count)
+{
+    LaneMask mask = core::first_lanes<Real, Lanes::lanes>(count);
+    if constexpr (F == Formulation::updated) {
+        if (visitors == Visitors::residents && any_set(particles.away.data() + begin, count))
+            return mask &
+                   !lanes_where([&](int i) { return particles.away[begin + static_cast<std::size_t>(i)] != 0; }, count);
+    }
+    return mask;
+}
+
+/// Material constants per lane.
+struct LawLanes
+{
+    Lanes lame, shear, yield, hardening, tensile_onset, shear_onset;
+    LaneMask averaged;
+};
+
+/// Lanes of several materials in one cell.
+[[gnu::noinline]] inline void mix_laws(const LawTable& laws, const std::uint8_t* index, int count, LawLanes& lanes)
+{
+    for (int i = 1; i < count; ++i) {
+        const LawConstants& d = laws.constants[index[i]];
+        lanes.lame.v[i] = d.lame;
+        lanes.shear.v[i] = d.shear;
+        lanes.yield.v[i] = d.yield;
+        lanes.hardening.v[i] = d.hardening;
+        lanes.tensile_onset.v[i] = d.tensile_onset;
+        lanes.shear_onset.v[i] = d.shear_onset;
+        lanes.averaged.v[i] = d.averaged_dilatation ? -1 : 0;
+    }
+}
+
+[[gnu::always_inline]] inline LawLanes law_lanes(const LawTable& laws, const particles::Particles& particles,
+                                                 std::size_t begin, int count)
+{
+    const std::uint8_t* index = particles.material.data() + begin;
+    bool same = true;
+    for (int i = 1; i < count; ++i) same = same && index[i] == index[0];
+    const LawConstants& c = laws.constants[index[0]];
+    const Lanes zero(Real(0));
+    LawLanes lanes{Lanes(c.lame),
+                   Lanes(c.shear),
+                   Lanes(c.yield),
+                   Lanes(c.hardening),
+                   Lanes(c.tensile_onset),
+                   Lanes(c.shear_onset),
+                   c.averaged_dilatation ? zero >= zero : zero < zero};
+    if (same) return lanes;
+    mix_laws(laws, index, count, lanes);
+    return lanes;
+}
+
+/// Lanes of particles without decohesion state.
+[[gnu::always_inline]] inline LaneMask intact(const particles::Particles& particles, std::size_t begin, int count)
+{
+    const std::int32_t* crack = particles.crack.data() + begin;
+    std::int32_t all = -1;
+    for (int i = 0; i < count; ++i) all &= crack[i];
+    const Lanes zero(Real(0));
+    if (all < 0) return zero >= zero; // the sign bit survives only if every index is negative
+    return !lanes_where([&](int i) { return crack[i] >= 0; }, count);
+}
+} // namespace transfer

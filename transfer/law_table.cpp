@@ -1,0 +1,28 @@
+#include "transfer/law_table.h"
+
+namespace transfer
+{
+LawTable law_table(const std::vector<material::Material>& materials)
+{
+    LawTable table;
+    table.materials = materials;
+    for (const material::Material& m : materials) {
+        LawConstants c;
+        c.lame = m.elastic.lame();
+        c.shear = m.elastic.shear_modulus();
+        if (m.plastic) {
+            c.yield = m.plastic->yield_stress;
+            c.hardening = m.plastic->plastic_modulus(m.elastic.youngs_modulus);
+        }
+        if (m.decohesion) {
+            c.tensile_onset = m.decohesion->s_max;
+            c.shear_onset = m.decohesion->tau_max;
+            table.any_decohesion = true;
+        }
+        c.averaged_dilatation = m.cell_averaged_dilatation;
+        table.constants.push_back(c);
+        table.separation.push_back(m.decohesion ? material::separation_law(m) : material::SeparationLaw{});
+    }
+    return table;
+}
+} // namespace transfer

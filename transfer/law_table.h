@@ -1,0 +1,37 @@
+/// Material constants in the form the kernels broadcast.
+#pragma once
+
+#include "core/real.h"
+#include "material/material.h"
+#include "material/separation.h"
+
+#include <limits>
+#include <vector>
+
+namespace transfer
+{
+/// Yield stress of a material without plasticity: finite, so that the branch-free return needs no special case.
+inline constexpr Real no_yield = 1e30;
+
+struct LawConstants
+{
+    Real lame = 0;                                              // MPa
+    Real shear = 0;                                             // MPa
+    Real yield = no_yield;                                      // MPa
+    Real hardening = 0;                                         // MPa, plastic modulus H
+    Real tensile_onset = std::numeric_limits<Real>::infinity(); // MPa, s_max; infinite: no decohesion
+    Real shear_onset = std::numeric_limits<Real>::infinity();   // MPa, tau_max
+    bool averaged_dilatation = true;
+};
+
+/// All materials of a case, by the index stored with each particle.
+struct LawTable
+{
+    std::vector<LawConstants> constants;
+    std::vector<material::Material> materials;
+    std::vector<material::SeparationLaw> separation; // [m], default where a material has no decohesion
+    bool any_decohesion = false;
+};
+
+LawTable law_table(const std::vector<material::Material>& materials);
+} // namespace transfer

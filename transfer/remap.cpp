@@ -1,0 +1,87 @@
+#include "core/parallel.h"
+#include "transfer/cell_sum.h"
+#include "transfer/chunk.h"
+#include "transfer/passes.h"
+#include "transfer/scatter_leaf.h"
+
+#include <algorithm>
+
+namespace transfer
+{
+namespace
+{
+/// Update the velocity (and affine matrix) of the particles [begin, end) that are served, and scatter their momentum.
+template <Formulation F, Transfer T>
+void remap_cell(const PassOptions& options, const CellFrame& frame, Visitors visitors, const grid::NodeMotion* motion,
+                std::size_t begin, std::size_t end, particles::Particles& particles, grid::NodeSum* tile)
+{
+    CellField field;
+    read_cell(motion + frame.node, field);
+    CellSum sum;
+    for (std::size_t p = begin; p < end; p += Lanes::lanes) {
+        const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, end - p));
+        const auto x = load_all<core::Vec<Lanes>>(weight_position<F>(particles), p, count);
+        const LocalPosition<Lanes> at = local_position(frame, x);
+        const LaneMask here = present<F>(visitors, particles, p, count);
+        for (int a = 0; a < 3; ++a) {
+            const auto axis = static_cast<std::size_t>(a);
+            const Lanes old = load(particles.velocity[axis], p, count);
+            core::Vec<Lanes> slope{};
+            const Lanes grid_velocity = value_and_slopes(field, velocity_column + a, at, slope[0], slope[1], slope[2]);
+            Lanes fresh = grid_velocity;
+            if constexpr (T == Transfer::flip) {
+                fresh = old + value(field, change_column + a, at);
+                if (options.pic_fraction > 0) fresh += Lanes(options.pic_fraction) * (grid_velocity - fresh);
+            } else {
+                for (int b = 0; b < 3; ++b) {
+                    particles::Column& entry = particles.affine[static_cast<std::size_t>(3 * a + b)];
+                    store(core::select(here, Lanes(frame.per_spacing) * slope[b], load(entry, p, count)), entry, p,
+                          count);
+                }
+            }
+            store(core::select(here, fresh, old), particles.velocity[axis], p, count);
+        }
+        for (int i = 0; i < count; ++i) {
+            if (!here[i]) continue;
+            const std::size_t q = p + static_cast<std::size_t>(i);
+            const CornerWeights weights = corner_weights(at.xi[i], at.eta[i], at.zeta[i]);
+            const Real m = particles.mass[q];
+            add_momentum(weights,
+                         {{m * particles.velocity[0][q], m * particles.velocity[1][q], m * particles.velocity[2][q]}},
+                         sum);
+            if constexpr (T == Transfer::apic) {
+                core::Mat<Real> rate{};
+                for (std::size_t n = 0; n < 9; ++n) rate.m[n] = m * particles.affine[n][q] / frame.per_spacing;
+                add_affine(weights, at.xi[i], at.eta[i], at.zeta[i], rate, sum);
+            }
+        }
+    }
+    write_cell(sum, frame.per_spacing, tile + frame.node);
+}
+} // namespace
+
+void remap_momentum(const PassOptions& options, const Strays& strays, particles::Particles& particles,
+                    grid::Levels& levels)
+{
+    with_scheme(options, [&]<Formulation F, Transfer T>() {
+        core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+            grid::NodeSum* tile = levels.sums(n);
+            for (int i = 0; i < grid::tile_nodes; ++i) tile[i].momentum = {};
+            const std::uint32_t* start = levels.cell_start.data() + n * grid::leaf_cells;
+            for (int c = 0; c < grid::leaf_cells; ++c)
+                if (start[c] != start[c + 1])
+                    remap_cell<F, T>(options, cell_frame(levels, levels.leaves[n], c), Visitors::residents,
+                                     levels.motions(n), start[c], start[c + 1], particles, tile);
+        });
+        if (strays.size() == 0) return;
+        core::parallel_for(strays.run.size() - 1, [&](std::size_t r) {
+            for (std::uint32_t s = strays.run[r]; s < strays.run[r + 1]; ++s) {
+                const auto leaf = static_cast<std::size_t>(strays.leaf[s]);
+                const std::uint32_t p = strays.particle[s];
+                remap_cell<F, T>(options, cell_frame(levels, levels.leaves[leaf], strays.cell[s]), Visitors::stray,
+                                 levels.motions(leaf), p, p + 1, particles, levels.sums(leaf));
+            }
+        });
+    });
+}
+} // namespace transfer

@@ -1,0 +1,39 @@
+#include "transfer/scatter_leaf.h"
+
+#include "core/parallel.h"
+#include "transfer/scatter_cell.h"
+
+#include <algorithm>
+
+namespace transfer
+{
+void scatter_leaf(const PassOptions& options, const LawTable& laws, const particles::Particles& particles,
+                  std::size_t leaf, grid::Levels& levels)
+{
+    grid::NodeSum* tile = levels.sums(leaf);
+    std::fill(tile, tile + grid::tile_nodes, grid::NodeSum{});
+    const std::uint32_t* start = levels.cell_start.data() + leaf * grid::leaf_cells;
+    with_scheme(options, [&]<Formulation F, Transfer T>() {
+        for (int c = 0; c < grid::leaf_cells; ++c)
+            if (start[c] != start[c + 1])
+                scatter_cell<F, T>(cell_frame(levels, levels.leaves[leaf], c), Visitors::residents, laws, particles,
+                                   start[c], start[c + 1], tile);
+    });
+}
+
+void scatter_strays(const PassOptions& options, const LawTable& laws, const Strays& strays,
+                    const particles::Particles& particles, grid::Levels& levels)
+{
+    if (strays.size() == 0) return;
+    core::parallel_for(strays.run.size() - 1, [&](std::size_t r) {
+        with_scheme(options, [&]<Formulation F, Transfer T>() {
+            for (std::uint32_t s = strays.run[r]; s < strays.run[r + 1]; ++s) {
+                const auto leaf = static_cast<std::size_t>(strays.leaf[s]);
+                const std::uint32_t p = strays.particle[s];
+                scatter_cell<F, T>(cell_frame(levels, levels.leaves[leaf], strays.cell[s]), Visitors::stray, laws,
+                                   particles, p, p + 1, levels.sums(leaf));
+            }
+        });
+    });
+}
+} // namespace transfer

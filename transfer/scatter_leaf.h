@@ -1,0 +1,29 @@
+/// Scatter of whole leaves; separate functions, never inlined into a pass, so that every caller gets the same bits.
+#pragma once
+
+#include "transfer/passes.h"
+
+namespace transfer
+{
+/// Zero the leaf's sums and scatter the particles at home in its cells.
+void scatter_leaf(const PassOptions& options, const LawTable& laws, const particles::Particles& particles,
+                  std::size_t leaf, grid::Levels& levels);
+
+/// Add the strays, each to the tile of the leaf it is in, in particle order.
+void scatter_strays(const PassOptions& options, const LawTable& laws, const Strays& strays,
+                    const particles::Particles& particles, grid::Levels& levels);
+
+/// Call `visit.template operator()<F, T>()` for the options' formulation and transfer.
+template <class Visit>
+void with_scheme(const PassOptions& options, const Visit& visit)
+{
+    using enum Formulation;
+    using enum Transfer;
+    const bool affine = options.transfer == apic;
+    if (options.formulation == total) {
+        affine ? visit.template operator()<total, apic>() : visit.template operator()<total, flip>();
+    } else {
+        affine ? visit.template operator()<updated, apic>() : visit.template operator()<updated, flip>();
+    }
+}
+} // namespace transfer

@@ -1,0 +1,30 @@
+/// The choices that shape the particle passes; they sit here, below the solver, because the kernels are compiled for
+/// each combination.
+#pragma once
+
+namespace transfer
+{
+enum class Basis
+{
+    trilinear,
+    gimp, // reserved: refused by the case reader until it exists
+};
+
+enum class Formulation
+{
+    updated, // weights at current positions
+    total,   // weights at rest positions, first Piola stress
+};
+
+enum class StressUpdate
+{
+    usl,  // from the updated nodal velocity
+    musl, // from nodal velocities mapped again from the updated particles
+};
+
+enum class Transfer
+{
+    flip, // FLIP blended with `pic_fraction` of PIC
+    apic,
+};
+} // namespace transfer
