@@ -99,7 +99,7 @@ constexpr Mat<T> cofactor(const Mat<T>& a)
 template <class T>
 constexpr Mat<T> operator*(const Mat<T>& a, const Mat<T>& b)
 {
-    Mat<T> c{};
+    Mat<T> c; // uninitialised on purpose: zeroing 9 vectors of lanes is not free
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) c(i, j) = a(i, 0) * b(0, j) + a(i, 1) * b(1, j) + a(i, 2) * b(2, j);
     return c;
@@ -164,7 +164,7 @@ constexpr Sym<T> symmetric_part(const Mat<T>& a)
 template <class T>
 constexpr Sym<T> rotated(const Mat<T>& r, const Sym<T>& a)
 {
-    Mat<T> ra{};
+    Mat<T> ra;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) ra(i, j) = r(i, 0) * a(0, j) + r(i, 1) * a(1, j) + r(i, 2) * a(2, j);
     const auto entry = [&](int i, int j) { return ra(i, 0) * r(j, 0) + ra(i, 1) * r(j, 1) + ra(i, 2) * r(j, 2); };

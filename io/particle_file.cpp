@@ -64,8 +64,7 @@ std::vector<SeriesEntry> read_series(const std::filesystem::path& path)
     if (!std::filesystem::exists(path)) return entries;
     try {
         const auto series = nlohmann::json::parse(read_file(path));
-        for (const auto& entry : series.at("files"))
-            entries.push_back({entry.at("name"), entry.at("time")});
+        for (const auto& entry : series.at("files")) entries.push_back({entry.at("name"), entry.at("time")});
     } catch (const nlohmann::json::exception& error) {
         throw core::FileError("cannot read '" + path.string() + "': " + error.what());
     }

@@ -32,7 +32,6 @@ struct Kinematics
     LaneMask here;                       // lanes that are particles of this cell
     LaneMask averaged;                   // those whose dilatation is averaged
     LaneMask may_start;                  // after update_stress: near enough a strength for the exact test
-    LawLanes law;
 };
 
 [[gnu::always_inline]] inline void store_where(LaneMask keep, Lanes fresh, Lanes old, particles::Column& column,
@@ -46,7 +45,7 @@ struct Kinematics
                                                         const LocalPosition<Lanes>& at, Lanes per_spacing,
                                                         core::Vec<Lanes>& velocity)
 {
-    core::Mat<Lanes> g{};
+    core::Mat<Lanes> g;
     for (int a = 0; a < 3; ++a) {
         velocity[a] = value_and_slopes(field, column + a, at, g(a, 0), g(a, 1), g(a, 2));
         for (int b = 0; b < 3; ++b) g(a, b) *= per_spacing;
@@ -60,7 +59,7 @@ struct Kinematics
                                                                    particles::Particles& particles, Lanes& volume)
 {
     const auto f = load_all<core::Mat<Lanes>>(particles.deformation_gradient, begin, count);
-    core::Mat<Lanes> middle{};
+    core::Mat<Lanes> middle;
     for (std::size_t n = 0; n < 9; ++n) {
         middle.m[n] = f.m[n] + Lanes(Real(0.5)) * rate_increment.m[n];
         store(f.m[n] + rate_increment.m[n], particles.deformation_gradient[n], begin, count);
@@ -69,7 +68,7 @@ struct Kinematics
     const Lanes jacobian = middle(0, 0) * cof(0, 0) + middle(0, 1) * cof(0, 1) + middle(0, 2) * cof(0, 2);
     const Lanes per_jacobian = Lanes(Real(1)) / jacobian;
     volume *= jacobian;
-    core::Mat<Lanes> l{};
+    core::Mat<Lanes> l;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             l(i, j) = per_jacobian * (rate_increment(i, 0) * cof(j, 0) + rate_increment(i, 1) * cof(j, 1) +
@@ -95,7 +94,7 @@ template <Formulation F, Transfer T, StressUpdate S>
                                         particles::Particles& particles, LeafOutcome& outcome, Kinematics& k)
 {
     const auto x = load_all<core::Vec<Lanes>>(particles.position, begin, count);
-    LocalPosition<Lanes> at{};
+    LocalPosition<Lanes> at;
     k.here = present<F>(visitors, particles, begin, count);
     if constexpr (F == Formulation::total) {
         at = local_position(frame, load_all<core::Vec<Lanes>>(particles.rest_position, begin, count));
@@ -104,7 +103,7 @@ template <Formulation F, Transfer T, StressUpdate S>
     }
     const Lanes dt(options.dt);
     const Lanes per_spacing(frame.per_spacing);
-    core::Vec<Lanes> grid_velocity{};
+    core::Vec<Lanes> grid_velocity;
     core::Mat<Lanes> g = gradient(field, velocity_column, at, per_spacing, grid_velocity);
     if constexpr (S == StressUpdate::usl) {
         for (int a = 0; a < 3; ++a) {
@@ -121,10 +120,10 @@ template <Formulation F, Transfer T, StressUpdate S>
             for (std::size_t n = 0; n < 9; ++n)
                 store_where(k.here, g.m[n], load(particles.affine[n], begin, count), particles.affine[n], begin, count);
     } else {
-        core::Vec<Lanes> remapped{};
+        core::Vec<Lanes> remapped;
         g = gradient(field, change_column, at, per_spacing, remapped);
     }
-    core::Vec<Lanes> moved{};
+    core::Vec<Lanes> moved;
     for (int a = 0; a < 3; ++a) {
         moved[a] = core::select(k.here, x[a] + dt * grid_velocity[a], x[a]);
         store(moved[a], particles.position[static_cast<std::size_t>(a)], begin, count);
@@ -144,8 +143,7 @@ template <Formulation F, Transfer T, StressUpdate S>
         if (visitors == Visitors::residents && core::any(left)) note_leavers(left, begin, count, particles, outcome);
     }
     k.dilatation = k.gradient_increment(0, 0) + k.gradient_increment(1, 1) + k.gradient_increment(2, 2);
-    k.law = law_lanes(laws, particles, begin, count);
-    k.averaged = k.here & k.law.averaged;
+    k.averaged = k.here & law_lanes(laws, particles, begin, count).averaged;
     if (laws.any_decohesion && !particles.cracks.empty()) k.averaged = k.averaged & intact(particles, begin, count);
 }
 
@@ -166,15 +164,14 @@ template <Formulation F, Transfer T, StressUpdate S>
 {
     const auto old = load_all<core::Sym<Lanes>>(particles.stress, begin, count);
     const Lanes old_strain = load(particles.eq_plastic_strain, begin, count);
+    const LawLanes law = law_lanes(laws, particles, begin, count);
     const core::Sym<Lanes> strain = strain_increment(k, mean_dilatation);
     const core::Mat<Lanes> rotation = material::incremental_rotation(material::spin_increment(k.gradient_increment));
-    const Lanes three_shear = Lanes(Real(3)) * k.law.shear;
     const core::Sym<Lanes> trial = material::elastic_trial(
-        core::rotated(rotation, old), strain, material::LameConstants<Lanes>{k.law.lame, k.law.shear + k.law.shear});
-    const material::PlasticStep<Lanes> step =
-        material::radial_return(trial, old_strain,
-                                material::PlasticConstants<Lanes>{k.law.yield, k.law.hardening, three_shear,
-                                                                  Lanes(Real(1)) / (three_shear + k.law.hardening)});
+        core::rotated(rotation, old), strain, material::LameConstants<Lanes>{law.lame, law.shear + law.shear});
+    const material::PlasticStep<Lanes> step = material::radial_return(
+        trial, old_strain,
+        material::PlasticConstants<Lanes>{law.yield, law.hardening, Lanes(Real(3)) * law.shear, law.per_overstress});
     Lanes plastic_work = core::select(k.here, step.work * k.volume, Lanes(Real(0)));
 
     for (int n = 0; n < 6; ++n)
@@ -189,7 +186,7 @@ template <Formulation F, Transfer T, StressUpdate S>
         outcome.work.decohesion += separate_lanes(input, particles, plastic_work);
     }
     outcome.work.plastic += core::sum(plastic_work);
-    k.may_start = k.here & material::may_start(step.stress, k.law.tensile_onset, k.law.shear_onset);
+    k.may_start = k.here & material::may_start(step.stress, law.tensile_onset, law.shear_onset);
 }
 
 /// Gradient increments of the first `count` particles of a group, lane by lane.

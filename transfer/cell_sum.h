@@ -31,12 +31,21 @@ inline constexpr NodeLanes::Lanes corner_z = {0, 1, 0, 1, 0, 1, 0, 1};
 
 struct CellSum
 {
-    NodeLanes mass{Real(0)};
-    core::Vec<NodeLanes> momentum{{NodeLanes(Real(0)), NodeLanes(Real(0)), NodeLanes(Real(0))}};
-    core::Mat<NodeLanes> force{{NodeLanes(Real(0)), NodeLanes(Real(0)), NodeLanes(Real(0)), NodeLanes(Real(0)),
-                                NodeLanes(Real(0)), NodeLanes(Real(0)), NodeLanes(Real(0)), NodeLanes(Real(0)),
-                                NodeLanes(Real(0))}};
+    NodeLanes mass;
+    NodeLanes momentum[3];
+    NodeLanes force[3][3]; // [component][direction of the slope]
 };
+
+/// All zero; written out because a loop over the struct becomes a slow string instruction.
+[[gnu::always_inline]] inline void clear(CellSum& sum)
+{
+    const NodeLanes zero(Real(0));
+    sum.mass = zero;
+    sum.momentum[0] = sum.momentum[1] = sum.momentum[2] = zero;
+    sum.force[0][0] = sum.force[0][1] = sum.force[0][2] = zero;
+    sum.force[1][0] = sum.force[1][1] = sum.force[1][2] = zero;
+    sum.force[2][0] = sum.force[2][1] = sum.force[2][2] = zero;
+}
 
 /// Weights of one particle on the eight corners.
 struct CornerWeights
@@ -53,26 +62,29 @@ struct CornerWeights
     return {wx * yz, yz, wx * wz, wx * wy};
 }
 
-/// `stress_volume` is V sigma (rows: component, columns: direction of the gradient), or V0 P in the total formulation.
-[[gnu::always_inline]] inline void add_force(const CornerWeights& weights, const core::Mat<Real>& stress_volume,
+/// `stress_volume(a, b)` is V sigma (a: component, b: direction of the gradient), or V0 P in the total formulation.
+template <class StressVolume>
+[[gnu::always_inline]] inline void add_force(const CornerWeights& weights, const StressVolume& stress_volume,
                                              CellSum& sum)
 {
     for (int a = 0; a < 3; ++a) {
-        sum.force(a, 0) += NodeLanes(stress_volume(a, 0)) * weights.slope_x;
-        sum.force(a, 1) += NodeLanes(stress_volume(a, 1)) * weights.slope_y;
-        sum.force(a, 2) += NodeLanes(stress_volume(a, 2)) * weights.slope_z;
+        sum.force[a][0] += NodeLanes(stress_volume(a, 0)) * weights.slope_x;
+        sum.force[a][1] += NodeLanes(stress_volume(a, 1)) * weights.slope_y;
+        sum.force[a][2] += NodeLanes(stress_volume(a, 2)) * weights.slope_z;
     }
 }
 
-[[gnu::always_inline]] inline void add_momentum(const CornerWeights& weights, const core::Vec<Real>& momentum,
-                                                CellSum& sum)
+[[gnu::always_inline]] inline void add_momentum(const CornerWeights& weights, Real px, Real py, Real pz, CellSum& sum)
 {
-    for (int a = 0; a < 3; ++a) sum.momentum[a] += NodeLanes(momentum[a]) * weights.w;
+    sum.momentum[0] += NodeLanes(px) * weights.w;
+    sum.momentum[1] += NodeLanes(py) * weights.w;
+    sum.momentum[2] += NodeLanes(pz) * weights.w;
 }
 
-/// Affine part m C (x_i - x_p) of APIC; `rate` is m C spacing.
+/// Affine part m C (x_i - x_p) of APIC; `rate(a, b)` is m C spacing.
+template <class Rate>
 [[gnu::always_inline]] inline void add_affine(const CornerWeights& weights, Real xi, Real eta, Real zeta,
-                                              const core::Mat<Real>& rate, CellSum& sum)
+                                              const Rate& rate, CellSum& sum)
 {
     const NodeLanes dx = weights.w * (NodeLanes(detail::corner_x) - NodeLanes(xi));
     const NodeLanes dy = weights.w * (NodeLanes(detail::corner_y) - NodeLanes(eta));
@@ -109,10 +121,12 @@ struct CornerWeights
     const NodeLanes sign_x(NodeLanes::Lanes((Real(1) - 2 * detail::corner_x) * per_spacing));
     const NodeLanes sign_y(NodeLanes::Lanes((Real(1) - 2 * detail::corner_y) * per_spacing));
     const NodeLanes sign_z(NodeLanes::Lanes((Real(1) - 2 * detail::corner_z) * per_spacing));
-    NodeLanes line[8] = {sum.mass,           sum.momentum[0],    sum.momentum[1],    sum.momentum[2],
-                         NodeLanes(Real(0)), NodeLanes(Real(0)), NodeLanes(Real(0)), NodeLanes(Real(0))};
+    NodeLanes line[8];
+    line[0] = sum.mass;
+    for (int a = 0; a < 3; ++a) line[1 + a] = sum.momentum[a];
     for (int a = 0; a < 3; ++a)
-        line[4 + a] = sum.force(a, 0) * sign_x + sum.force(a, 1) * sign_y + sum.force(a, 2) * sign_z;
+        line[4 + a] = sum.force[a][0] * sign_x + sum.force[a][1] * sign_y + sum.force[a][2] * sign_z;
+    line[7] = NodeLanes(Real(0));
     transpose(line);
     for (int n = 0; n < 8; ++n) {
         Real* target = &node[grid::tile_index(n >> 2, n >> 1 & 1, n & 1)].mass;

@@ -129,7 +129,7 @@ template <Formulation F>
 /// Material constants per lane.
 struct LawLanes
 {
-    Lanes lame, shear, yield, hardening, tensile_onset, shear_onset;
+    Lanes lame, shear, yield, hardening, per_overstress, tensile_onset, shear_onset;
     LaneMask averaged;
 };
 
@@ -142,6 +142,7 @@ struct LawLanes
         lanes.shear.v[i] = d.shear;
         lanes.yield.v[i] = d.yield;
         lanes.hardening.v[i] = d.hardening;
+        lanes.per_overstress.v[i] = d.per_overstress;
         lanes.tensile_onset.v[i] = d.tensile_onset;
         lanes.shear_onset.v[i] = d.shear_onset;
         lanes.averaged.v[i] = d.averaged_dilatation ? -1 : 0;
@@ -156,13 +157,10 @@ struct LawLanes
     for (int i = 1; i < count; ++i) same = same && index[i] == index[0];
     const LawConstants& c = laws.constants[index[0]];
     const Lanes zero(Real(0));
-    LawLanes lanes{Lanes(c.lame),
-                   Lanes(c.shear),
-                   Lanes(c.yield),
-                   Lanes(c.hardening),
-                   Lanes(c.tensile_onset),
-                   Lanes(c.shear_onset),
-                   c.averaged_dilatation ? zero >= zero : zero < zero};
+    LawLanes lanes{Lanes(c.lame),           Lanes(c.shear),
+                   Lanes(c.yield),          Lanes(c.hardening),
+                   Lanes(c.per_overstress), Lanes(c.tensile_onset),
+                   Lanes(c.shear_onset),    c.averaged_dilatation ? zero >= zero : zero < zero};
     if (same) return lanes;
     mix_laws(laws, index, count, lanes);
     return lanes;

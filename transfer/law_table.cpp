@@ -14,6 +14,7 @@ LawTable law_table(const std::vector<material::Material>& materials)
             c.yield = m.plastic->yield_stress;
             c.hardening = m.plastic->plastic_modulus(m.elastic.youngs_modulus);
         }
+        c.per_overstress = 1 / (3 * c.shear + c.hardening);
         if (m.decohesion) {
             c.tensile_onset = m.decohesion->s_max;
             c.shear_onset = m.decohesion->tau_max;

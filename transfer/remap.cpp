@@ -18,6 +18,7 @@ void remap_cell(const PassOptions& options, const CellFrame& frame, Visitors vis
     CellField field;
     read_cell(motion + frame.node, field);
     CellSum sum;
+    clear(sum);
     for (std::size_t p = begin; p < end; p += Lanes::lanes) {
         const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, end - p));
         const auto x = load_all<core::Vec<Lanes>>(weight_position<F>(particles), p, count);
@@ -46,13 +47,14 @@ void remap_cell(const PassOptions& options, const CellFrame& frame, Visitors vis
             const std::size_t q = p + static_cast<std::size_t>(i);
             const CornerWeights weights = corner_weights(at.xi[i], at.eta[i], at.zeta[i]);
             const Real m = particles.mass[q];
-            add_momentum(weights,
-                         {{m * particles.velocity[0][q], m * particles.velocity[1][q], m * particles.velocity[2][q]}},
-                         sum);
+            add_momentum(weights, m * particles.velocity[0][q], m * particles.velocity[1][q],
+                         m * particles.velocity[2][q], sum);
             if constexpr (T == Transfer::apic) {
-                core::Mat<Real> rate{};
-                for (std::size_t n = 0; n < 9; ++n) rate.m[n] = m * particles.affine[n][q] / frame.per_spacing;
-                add_affine(weights, at.xi[i], at.eta[i], at.zeta[i], rate, sum);
+                const Real per_slope = m / frame.per_spacing;
+                add_affine(
+                    weights, at.xi[i], at.eta[i], at.zeta[i],
+                    [&](int a, int b) { return per_slope * particles.affine[static_cast<std::size_t>(3 * a + b)][q]; },
+                    sum);
             }
         }
     }

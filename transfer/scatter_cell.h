@@ -40,7 +40,7 @@ inline void store_matrix(const core::Mat<Lanes>& m, Real (*to)[Staged::lanes])
 {
     const Lanes mean = core::trace(stress) * Lanes(Real(1) / 3);
     const Lanes shift = core::select(averaged, Lanes(mean_pressure) - mean, Lanes(Real(0)));
-    core::Mat<Lanes> m{};
+    core::Mat<Lanes> m;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) m(i, j) = volume * (i == j ? stress(i, j) + shift : stress(i, j));
     return m;
@@ -51,7 +51,7 @@ inline void store_matrix(const core::Mat<Lanes>& m, Real (*to)[Staged::lanes])
                                                             const core::Mat<Lanes>& f)
 {
     const core::Mat<Lanes> cof = core::cofactor(f);
-    core::Mat<Lanes> m{};
+    core::Mat<Lanes> m;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             m(i, j) = rest_volume * (stress(i, 0) * cof(0, j) + stress(i, 1) * cof(1, j) + stress(i, 2) * cof(2, j));
@@ -100,15 +100,15 @@ template <Transfer T>
     const CornerWeights weights = corner_weights(staged.xi[i], staged.eta[i], staged.zeta[i]);
     const Real m = staged.mass[i];
     sum.mass += NodeLanes(m) * weights.w;
-    add_momentum(weights, {{m * staged.velocity[0][i], m * staged.velocity[1][i], m * staged.velocity[2][i]}}, sum);
+    add_momentum(weights, m * staged.velocity[0][i], m * staged.velocity[1][i], m * staged.velocity[2][i], sum);
     if constexpr (T == Transfer::apic) {
-        core::Mat<Real> rate{};
-        for (std::size_t n = 0; n < 9; ++n) rate.m[n] = m * particles.affine[n][p] / frame.per_spacing;
-        add_affine(weights, staged.xi[i], staged.eta[i], staged.zeta[i], rate, sum);
+        const Real per_slope = m / frame.per_spacing;
+        add_affine(
+            weights, staged.xi[i], staged.eta[i], staged.zeta[i],
+            [&](int a, int b) { return per_slope * particles.affine[static_cast<std::size_t>(3 * a + b)][p]; }, sum);
     }
-    core::Mat<Real> stress_volume{};
-    for (std::size_t n = 0; n < 9; ++n) stress_volume.m[n] = staged.stress_volume[n][i];
-    add_force(weights, stress_volume, sum);
+    add_force(
+        weights, [&](int a, int b) { return staged.stress_volume[3 * a + b][i]; }, sum);
 }
 } // namespace detail
 
@@ -137,6 +137,7 @@ void scatter_cell(const CellFrame& frame, Visitors visitors, const LawTable& law
     CellPressure pressure;
     if constexpr (F == Formulation::updated) add_pressure(visitors, laws, particles, begin, end, pressure);
     CellSum sum;
+    clear(sum);
     for (std::size_t p = begin; p < end; p += Lanes::lanes) {
         const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, end - p));
         detail::Staged staged;

@@ -21,7 +21,7 @@ struct Strays
     std::vector<std::int32_t> cell;      // [s] cell of that leaf
     std::vector<std::uint32_t> run;      // starts of equal-leaf runs, + 1 entry
     bool outside = false;                // one of them is in a cell that does not exist yet: reorder before use
-    grid::Refinement refinement{1};        // where the leaf cells are
+    grid::Refinement refinement{1};      // where the leaf cells are
 
     std::size_t size() const { return particle.size(); }
 };

@@ -80,6 +80,12 @@ TEST(SvgField, ShowsTheLargestValueWhereParticlesOverlap)
             picture.value.push_back(0);
         }
     picture.value[105] = 1;
+    for (const float value : {0.5f, 0.0f}) { // two more in the same place, given after it
+        picture.u.push_back(picture.u[105]);
+        picture.v.push_back(picture.v[105]);
+        picture.side.push_back(1);
+        picture.value.push_back(value);
+    }
     const std::string svg = app::svg_field(picture);
     EXPECT_EQ(unbalanced_tag(svg), "");
     EXPECT_PRED2(faults::contains, svg, "<path fill=\"#440154\""); // 0

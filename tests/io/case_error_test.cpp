@@ -142,6 +142,8 @@ TEST_F(CaseError, several_at_once)
     EXPECT_TRUE(contains(all, "error: there is no load 'pn'\n"));
     EXPECT_TRUE(contains(all, "did you mean 'pin'?"));
     EXPECT_TRUE(contains(all, "\n4 errors"));
+    // In the order of the file, although the first is found last.
+    EXPECT_LT(all.find("case.toml:4:22"), all.find("case.toml:9:17"));
 }
 
 TEST_F(CaseError, syntax)

@@ -1,0 +1,183 @@
+#include "grid/interface.h"
+
+#include "grid/topology.h"
+#include "tests/support/random.h"
+#include "tests/support/topologies.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+namespace
+{
+using Cell = std::tuple<int, int, int, int>;
+
+template <class Visit>
+void for_each_row(const grid::Levels& levels, const Visit& visit)
+{
+    for (const grid::LevelInterface& face : levels.interface)
+        for (std::size_t s = 0; s < face.slave.size(); ++s) visit(face, s);
+}
+
+const grid::NodeSum& sum_at(const grid::Levels& levels, const grid::NodeAddress& at)
+{
+    return levels.sums(static_cast<std::size_t>(at.leaf))[at.node];
+}
+} // namespace
+
+TEST(Interface, slaves_are_the_fine_corners_that_touch_a_coarser_cell)
+{
+    for (const support::Topology& topology : support::topologies()) {
+        const grid::Levels levels = support::levels_of(topology);
+        std::set<Cell> cells;
+        for (const grid::CellKey& key : topology.cells)
+            cells.insert({key.level, key.cell[0], key.cell[1], key.cell[2]});
+        std::size_t slaves = 0;
+        for (std::size_t n = 0; n < levels.leaves.size(); ++n)
+            for (int place = 0; place < grid::leaf_cells; ++place) {
+                const grid::Leaf& leaf = levels.leaves[n];
+                const Index3 local(place / 64, place / 8 % 8, place % 8);
+                bool fine = false, coarse = false;
+                for (int c = 0; c < 8; ++c) {
+                    const Index3 cell = leaf.origin + local - Index3(c >> 2, c >> 1 & 1, c & 1);
+                    fine = fine || cells.count({leaf.level, cell[0], cell[1], cell[2]}) > 0;
+                    coarse = coarse || cells.count({leaf.level - 1, cell[0] >> 1, cell[1] >> 1, cell[2] >> 1}) > 0;
+                }
+                const int node = grid::tile_index(local[0], local[1], local[2]);
+                EXPECT_EQ(levels.constrained[n * grid::tile_nodes + static_cast<std::size_t>(node)] != 0,
+                          fine && coarse)
+                    << topology;
+                slaves += fine && coarse ? 1 : 0;
+            }
+        std::size_t rows = 0;
+        for (const grid::LevelInterface& face : levels.interface) rows += face.slave.size();
+        EXPECT_EQ(rows, slaves) << topology;
+    }
+}
+
+TEST(Interface, rows_reproduce_constants_and_positions_from_masters_that_exist)
+{
+    for (const support::Topology& topology : support::topologies()) {
+        const grid::Levels levels = support::levels_of(topology);
+        for_each_row(levels, [&](const grid::LevelInterface& face, std::size_t s) {
+            Real weights = 0;
+            Vec3 position = Vec3::Zero();
+            for (int e = face.row_start[s]; e < face.row_start[s + 1]; ++e) {
+                const auto entry = static_cast<std::size_t>(e);
+                ASSERT_GE(face.row_master[entry].leaf, 0) << topology;
+                weights += face.row_weight[entry];
+                position += face.row_weight[entry] * support::position_of(levels, face.row_master[entry]);
+            }
+            EXPECT_EQ(weights, 1) << topology;
+            EXPECT_LT((position - support::position_of(levels, face.slave[s])).norm(), 1e-15) << topology;
+        });
+    }
+}
+
+TEST(Interface, every_kind_of_row_occurs)
+{
+    std::set<int> lengths;
+    for (const support::Topology& topology : support::topologies())
+        for_each_row(support::levels_of(topology), [&](const grid::LevelInterface& face, std::size_t s) {
+            lengths.insert(face.row_start[s + 1] - face.row_start[s]);
+        });
+    EXPECT_EQ(lengths, (std::set<int>{1, 2, 4}));
+}
+
+// methods.md A.4, 8: <P^T f, v> = <f, P v>, the masters of one interface being slaves of the next.
+TEST(Interface, restriction_is_the_transpose_of_prolongation)
+{
+    for (const support::Topology& topology : support::topologies()) {
+        grid::Levels levels = support::levels_of(topology);
+        support::Random random(7);
+        std::vector<Real> force;
+        for (grid::NodeSum& sum : levels.sum) force.push_back(sum.force[0] = random.between(-1, 1));
+        support::for_each_free_node(levels, [&](const grid::NodeAddress& at, const Vec3&) {
+            levels.motions(static_cast<std::size_t>(at.leaf))[at.node].velocity[0] = random.between(-1, 1);
+        });
+        grid::prolong_motion(levels);
+        grid::restrict_sums(levels);
+        Real before = 0, after = 0;
+        std::vector<grid::NodeAddress> nodes;
+        support::for_each_free_node(levels, [&](const grid::NodeAddress& at, const Vec3&) { nodes.push_back(at); });
+        const auto power = [&](const grid::NodeAddress& at, Real f) {
+            return f * levels.motions(static_cast<std::size_t>(at.leaf))[at.node].velocity[0];
+        };
+        const auto index = [](const grid::NodeAddress& at) {
+            return static_cast<std::size_t>(at.leaf) * grid::tile_nodes + static_cast<std::size_t>(at.node);
+        };
+        for (const grid::NodeAddress& at : nodes) {
+            before += power(at, force[index(at)]);
+            after += power(at, sum_at(levels, at).force[0]);
+        }
+        for_each_row(levels, [&](const grid::LevelInterface& face, std::size_t s) {
+            before += power(face.slave[s], force[index(face.slave[s])]);
+            EXPECT_EQ(sum_at(levels, face.slave[s]).force[0], 0) << topology;
+        });
+        EXPECT_NEAR(before, after, 1e-12 * static_cast<Real>(nodes.size())) << topology;
+    }
+}
+
+TEST(Interface, prolongation_reproduces_linear_fields)
+{
+    for (const support::Topology& topology : support::topologies()) {
+        grid::Levels levels = support::levels_of(topology);
+        const auto field = [](const Vec3& x) { return 0.3 + 2 * x[0] - 5 * x[1] + 7 * x[2]; };
+        support::for_each_free_node(levels, [&](const grid::NodeAddress& at, const Vec3& x) {
+            levels.motions(static_cast<std::size_t>(at.leaf))[at.node].velocity[0] = field(x);
+            levels.motions(static_cast<std::size_t>(at.leaf))[at.node].change[2] = -field(x);
+        });
+        grid::prolong_motion(levels);
+        for_each_row(levels, [&](const grid::LevelInterface& face, std::size_t s) {
+            const grid::NodeMotion& motion =
+                levels.motions(static_cast<std::size_t>(face.slave[s].leaf))[face.slave[s].node];
+            const Real expected = field(support::position_of(levels, face.slave[s]));
+            EXPECT_NEAR(motion.velocity[0], expected, 1e-13) << topology;
+            EXPECT_NEAR(motion.change[2], -expected, 1e-13) << topology;
+        });
+    }
+}
+
+TEST(Interface, a_restart_rebuilds_the_same_leaves_and_rows)
+{
+    for (const support::Topology& topology : support::topologies()) {
+        const grid::Levels built = support::levels_of(topology);
+        grid::Levels restored;
+        restored.spacing0 = built.spacing0;
+        restored.count = built.count;
+        restored.origin = built.origin;
+        restored.level_start = built.level_start;
+        restored.cell_active = built.cell_active;
+        for (const grid::Leaf& leaf : built.leaves) restored.leaves.push_back({leaf.level, leaf.origin, {}});
+        // As after reading a file: the mask trees are gone.
+        grid::restore(restored);
+        ASSERT_EQ(restored.leaves.size(), built.leaves.size()) << topology;
+        for (std::size_t n = 0; n < built.leaves.size(); ++n) {
+            EXPECT_EQ(restored.leaves[n].origin, built.leaves[n].origin);
+            EXPECT_EQ(restored.leaves[n].neighbour, built.leaves[n].neighbour);
+        }
+        EXPECT_EQ(restored.cell_active, built.cell_active);
+        EXPECT_EQ(restored.constrained, built.constrained);
+        const auto same = [](const grid::NodeAddress& a, const grid::NodeAddress& b) {
+            return a.leaf == b.leaf && a.node == b.node;
+        };
+        for (std::size_t l = 0; l < built.interface.size(); ++l) {
+            const grid::LevelInterface &a = built.interface[l], &b = restored.interface[l];
+            EXPECT_TRUE(std::equal(a.slave.begin(), a.slave.end(), b.slave.begin(), b.slave.end(), same));
+            EXPECT_TRUE(
+                std::equal(a.row_master.begin(), a.row_master.end(), b.row_master.begin(), b.row_master.end(), same));
+            EXPECT_EQ(a.row_weight, b.row_weight);
+            EXPECT_EQ(a.column_slave, b.column_slave);
+            EXPECT_EQ(a.column_weight, b.column_weight);
+        }
+        const grid::Refinement refinement = grid::refinement_of_cells(restored);
+        for (const grid::CellKey& key : topology.cells) {
+            const Real h = 1 / static_cast<Real>(1 << key.level);
+            const grid::CellKey found = refinement.locate(h * (key.cell.cast<Real>() + Vec3::Constant(0.5)));
+            EXPECT_EQ(found.level, key.level) << topology;
+            EXPECT_EQ(found.cell, key.cell) << topology;
+        }
+    }
+}

@@ -1,0 +1,102 @@
+// Partition of unity, linear completeness and gradient completeness (methods.md A.4, 1 and 11), through the passes a
+// step uses: nodal fields that are constant or linear must arrive unchanged on every particle.
+#include "tests/support/scene.h"
+
+#include <gtest/gtest.h>
+
+using support::Scene;
+using transfer::Formulation;
+using transfer::StressUpdate;
+using transfer::Transfer;
+
+namespace
+{
+constexpr Formulation formulations[] = {Formulation::updated, Formulation::total};
+const Eigen::Matrix3d gradient = (Eigen::Matrix3d() << 0.3, -1.1, 0.7, 2.0, -0.4, 0.9, -0.6, 1.3, 0.5).finished();
+const Vec3 shift(0.4, -2.5, 1.7);
+
+transfer::PassOptions affine_options(Formulation formulation)
+{
+    transfer::PassOptions options;
+    options.formulation = formulation;
+    options.transfer = Transfer::apic;
+    options.dt = 1e-9;
+    return options;
+}
+
+/// Random particles after one step in the nodal field G x + w.
+Scene moved(const support::Topology& topology, const transfer::PassOptions& options, const Eigen::Matrix3d& g)
+{
+    Scene scene = support::scene_of(topology, options, {support::soft_elastic()}, support::Layout::random);
+    support::prescribe_motion([&](const Vec3& x) -> Vec3 { return g * x + shift; }, scene.levels);
+    transfer::advance_and_scatter(scene.options, scene.laws, scene.strays, scene.particles, scene.levels,
+                                  scene.leaf_work);
+    return scene;
+}
+} // namespace
+
+TEST(Completeness, a_constant_field_is_carried_exactly_and_strains_nothing)
+{
+    for (const support::Topology& topology : support::topologies())
+        for (const Formulation formulation : formulations) {
+            const Scene scene = moved(topology, affine_options(formulation), Eigen::Matrix3d::Zero());
+            for (std::size_t p = 0; p < scene.particles.size(); ++p) {
+                ASSERT_LT((support::vector_of(scene.particles.velocity, p) - shift).norm(), 1e-14) << topology;
+                ASSERT_EQ(support::matrix_of(scene.particles.affine, p).norm(), 0) << topology;
+                ASSERT_EQ(support::stress_of(scene.particles, p).norm(), 0) << topology;
+            }
+        }
+}
+
+TEST(Completeness, a_linear_field_has_its_value_and_gradient_on_every_particle)
+{
+    for (const support::Topology& topology : support::topologies())
+        for (const Formulation formulation : formulations) {
+            const Scene scene = moved(topology, affine_options(formulation), gradient);
+            for (std::size_t p = 0; p < scene.particles.size(); ++p) {
+                const Vec3 x = support::vector_of(scene.particles.rest_position, p);
+                ASSERT_LT((support::vector_of(scene.particles.velocity, p) - gradient * x - shift).norm(), 1e-13)
+                    << topology;
+                ASSERT_LT((support::matrix_of(scene.particles.affine, p) - gradient).norm(), 2e-12) << topology;
+            }
+        }
+}
+
+TEST(Completeness, flip_adds_the_interpolated_change)
+{
+    for (const support::Topology& topology : support::topologies())
+        for (const Real pic : {0.0, 0.3, 1.0}) {
+            transfer::PassOptions options = affine_options(Formulation::updated);
+            options.transfer = Transfer::flip;
+            options.pic_fraction = pic;
+            const Scene scene = moved(topology, options, gradient); // starts at rest, change = velocity
+            for (std::size_t p = 0; p < scene.particles.size(); ++p) {
+                const Vec3 x = support::vector_of(scene.particles.rest_position, p);
+                ASSERT_LT((support::vector_of(scene.particles.velocity, p) - gradient * x - shift).norm(), 1e-13)
+                    << topology;
+            }
+        }
+}
+
+// Only where all cells are of one size: at an interface the momentum of a slave counts at the place of its masters, so
+// that P2G, unlike G2P, is not exact for affine motion (methods.md A.3.5: an extra matrix per slave would cure it).
+TEST(Completeness, affine_particles_map_a_linear_motion_to_the_nodes_and_back)
+{
+    for (const support::Topology& topology : {support::topologies().front(), support::topologies().back()})
+        for (const Formulation formulation : formulations) {
+            Scene scene = support::scene_of(topology, affine_options(formulation), {support::soft_elastic()},
+                                            support::Layout::random);
+            for (std::size_t p = 0; p < scene.particles.size(); ++p) {
+                const Vec3 v = gradient * support::vector_of(scene.particles.position, p) + shift;
+                for (std::size_t a = 0; a < 3; ++a) {
+                    scene.particles.velocity[a][p] = v[static_cast<int>(a)];
+                    for (std::size_t b = 0; b < 3; ++b)
+                        scene.particles.affine[3 * a + b][p] = gradient(static_cast<int>(a), static_cast<int>(b));
+                }
+            }
+            transfer::scatter(scene.options, scene.laws, scene.strays, scene.particles, scene.levels);
+            support::advance(1e-9, scene);
+            for (std::size_t p = 0; p < scene.particles.size(); ++p)
+                ASSERT_LT((support::matrix_of(scene.particles.affine, p) - gradient).norm(), 1e-9) << topology;
+        }
+}
