@@ -46,7 +46,10 @@ void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
         stored = io::resume(files.directory / "checkpoint", files.of_case,
                             [&](const std::string& text) { log.line("warning: " + text); });
     if (!stored) {
-        if (options.resume) log.line("no checkpoint to resume from: starting at time 0");
+        if (options.resume && std::filesystem::exists(files.directory / "history.csv"))
+            throw core::InputError(fmt::format("{} holds a run but no checkpoint: nothing to resume from. --force "
+                                               "replaces it.",
+                                               files.directory.string()));
         run.state = solver::initialise(run.problem, run.prepared, run.derived);
         files.history = std::make_unique<io::HistoryFile>(files.directory / "history.csv", run.problem.grid.levels);
         files.record.particles_start = solver::particles_per_level(run.state);
@@ -79,7 +82,7 @@ Ending loop(const RunOptions& options, Log& log, Run& run, RunFiles& files, std:
 {
     Progress progress(run.problem.end, log);
     const auto newest = [&] { return run.state.history.empty() ? solver::HistoryLine{} : run.state.history.back(); };
-    const std::optional<Real> every_wall = run.problem.output.checkpoint_every_wall;
+    const Real every_wall = run.problem.output.checkpoint_every_wall;
     while (solver::finished(run.problem, run.state) == solver::Finish::no) {
         solver::advance(run.problem, run.prepared, run.state, run.derived);
         files.record.particle_steps += run.state.particles.size();
@@ -90,8 +93,7 @@ Ending loop(const RunOptions& options, Log& log, Run& run, RunFiles& files, std:
             write_checkpoint(run.problem, run.state, wall, files);
             return Ending::stopped;
         }
-        if (every_wall && wall - files.last_checkpoint > *every_wall)
-            write_checkpoint(run.problem, run.state, wall, files);
+        if (wall - files.last_checkpoint > every_wall) write_checkpoint(run.problem, run.state, wall, files);
     }
     return Ending::done;
 }
@@ -135,7 +137,9 @@ int run_case(const RunOptions& options)
         write_record(run.problem, run.state, 0, files);
         const Ending ending = loop(options, log, run, files, start);
         if (ending == Ending::done) {
-            files.history->append(solver::observe(run.problem, run.prepared, run.derived, run.state));
+            // Forces are means since the last line: there is none to form if that was this step.
+            if (run.state.history.empty() || run.state.history.back().step != run.state.clock.step)
+                files.history->append(solver::observe(run.problem, run.prepared, run.derived, run.state));
             write_last_frames(run.problem, run.state, files);
         }
         files.record.status = ending == Ending::done ? "done" : "stopped";

@@ -12,6 +12,7 @@ int main(int argc, char** argv)
     app::Command chosen;
     app::add_run(program, chosen);
     app::add_check(program, chosen);
+    app::add_bench(program, chosen);
     app::add_new(program, chosen);
     app::add_keys(program, chosen);
     app::add_info(program, chosen);

@@ -34,6 +34,7 @@ std::int64_t multiples(Real value, Real every)
 
 void write_particles(const solver::Problem& problem, const solver::State& state, RunFiles& files)
 {
+    files.last_particles = state.clock.step;
     io::ParticleFileOptions options;
     options.fields = problem.output.particle_fields;
     options.precision = problem.output.particle_precision == "f64" ? io::Precision::f64 : io::Precision::f32;
@@ -44,6 +45,7 @@ void write_particles(const solver::Problem& problem, const solver::State& state,
 
 void write_volume(const solver::Problem& problem, const solver::State& state, RunFiles& files)
 {
+    files.last_vdb = state.clock.step;
     io::VdbFileOptions options;
     options.grids = problem.output.vdb_grids;
     options.preset = problem.output.vdb_preset;
@@ -104,6 +106,7 @@ RunFiles open_files(const fs::path& directory, const io::Case& run_case)
     RunFiles files;
     files.directory = directory;
     files.of_case = {run_case.resolved, CLEAVE_VERSION};
+    files.record.references = run_case.problem.references;
     files.record.title = run_case.problem.title;
     files.record.version = CLEAVE_VERSION;
     files.history_due.every = run_case.problem.output.history;
@@ -125,8 +128,9 @@ void write_due(const solver::Problem& problem, const solver::Prepared& prepared,
 
 void write_last_frames(const solver::Problem& problem, const solver::State& state, RunFiles& files)
 {
-    if (wanted(problem.output.particles)) write_particles(problem, state, files);
-    if (wanted(problem.output.vdb)) write_volume(problem, state, files);
+    if (wanted(problem.output.particles) && files.last_particles != state.clock.step)
+        write_particles(problem, state, files);
+    if (wanted(problem.output.vdb) && files.last_vdb != state.clock.step) write_volume(problem, state, files);
 }
 
 void write_checkpoint(const solver::Problem& problem, const solver::State& state, double wall_s, RunFiles& files)

@@ -39,8 +39,9 @@ struct RunFiles
     std::unique_ptr<io::HistoryFile> history;
     Schedule history_due, particles_due, vdb_due;
     int vdb_frame = 0;
-    double last_checkpoint = 0; // s, wall time since the start of this part
-    double wall_before = 0;     // s, of the parts before a restart
+    std::int64_t last_particles = -1, last_vdb = -1; // steps of the newest frames
+    double last_checkpoint = 0;                      // s, wall time since the start of this part
+    double wall_before = 0;                          // s, of the parts before a restart
 };
 
 /// The directory a run writes to: `-o`, or results/<case>, or with a number behind it if that holds a run already.

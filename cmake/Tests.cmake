@@ -32,6 +32,10 @@ function(add_cleave_tests folder)
     target_link_libraries(test_${folder} PRIVATE cleave_test_support cleave_${module} ${CLEAVE_HIDES_${module}}
         GTest::gtest_main)
     target_compile_definitions(test_${folder} PRIVATE CLEAVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    if(folder STREQUAL regression) # runs the program itself
+        target_compile_definitions(test_${folder} PRIVATE CLEAVE_PROGRAM="$<TARGET_FILE:cleave>")
+        add_dependencies(test_${folder} cleave)
+    endif()
     set_target_properties(test_${folder} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     set(discover DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120)
     gtest_discover_tests(test_${folder} ${discover} TEST_FILTER "-*Slow*" PROPERTIES LABELS ${label} TIMEOUT 900)

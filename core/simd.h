@@ -41,6 +41,7 @@ template <class T, int N>
 struct VectorOf
 {
     typedef T type __attribute__((vector_size(static_cast<unsigned>(N) * sizeof(T))));
+    typedef T unaligned __attribute__((vector_size(static_cast<unsigned>(N) * sizeof(T)), aligned(alignof(T))));
 };
 
 /// A truth value per lane: all bits set or none.
@@ -59,6 +60,9 @@ template <class T, int N>
 struct Pack
 {
     using Lanes = typename VectorOf<T, N>::type;
+    // Aligned like T, but still a vector of T: other than a memcpy it may not overwrite pointers, so the compiler need
+    // not read the address of every column again after each store.
+    using Unaligned = typename VectorOf<T, N>::unaligned;
     static constexpr int lanes = N;
     Lanes v;
 
@@ -73,13 +77,8 @@ struct Pack
     T operator[](int lane) const { return v[lane]; }
 
     /// Read N consecutive values; no alignment needed.
-    static Pack load(const T* from)
-    {
-        Pack p;
-        std::memcpy(&p.v, from, sizeof(p.v));
-        return p;
-    }
-    void store(T* to) const { std::memcpy(to, &v, sizeof(v)); }
+    static Pack load(const T* from) { return {*reinterpret_cast<const Unaligned*>(from)}; }
+    void store(T* to) const { *reinterpret_cast<Unaligned*>(to) = v; }
 
     friend Pack operator+(Pack a, Pack b) { return {a.v + b.v}; }
     friend Pack operator-(Pack a, Pack b) { return {a.v - b.v}; }

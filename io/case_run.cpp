@@ -47,7 +47,9 @@ void read_numerics(Draft& draft)
     numerics.formulation = section.choice<solver::Formulation>("formulation");
     numerics.basis = section.choice<solver::Basis>("basis");
     numerics.transfer = section.choice<solver::Transfer>("transfer");
-    numerics.stress_update = section.choice<solver::StressUpdate>("stress_update");
+    numerics.stress_update = section.choice(
+        "stress_update", numerics.formulation == solver::Formulation::updated ? solver::StressUpdate::musl
+                                                                              : solver::StressUpdate::usl);
     numerics.pic_fraction = section.real("pic_fraction");
     numerics.cfl = section.real("cfl");
     numerics.mass_cutoff = section.real("mass_cutoff");
@@ -96,7 +98,7 @@ void read_output(Draft& draft)
         output.vdb_scale = section.real("scale");
     });
     read_part(draft, table, "checkpoint", [&](SectionReader& section) {
-        output.checkpoint_every_wall = section.optional_real("every_wall");
+        output.checkpoint_every_wall = section.real("every_wall");
         output.checkpoint_keep = static_cast<int>(section.integer("keep"));
     });
 }

@@ -37,6 +37,9 @@ Ledger audit(const Prepared& prepared, const State& state)
             core::Sym<Real> stress{};
             for (std::size_t c = 0; c < 6; ++c) stress.s[c] = particles.stress[c][p];
             leaf[n].kinetic += particles.mass[p] * speed2 / 2;
+            for (std::size_t a = 0; a < 3; ++a)
+                leaf[n].external += particles.mass[p] * prepared.gravity[static_cast<int>(a)] *
+                                    (particles.position[a][p] - particles.rest_position[a][p]);
             leaf[n].elastic += volume(particles, prepared.options.formulation, p) *
                                material::elastic_energy(prepared.laws.materials[particles.material[p]].elastic, stress);
         }
@@ -47,6 +50,7 @@ Ledger audit(const Prepared& prepared, const State& state)
     for (std::size_t n = 0; n < leaf.size(); ++n) {
         total.kinetic += leaf[n].kinetic;
         total.elastic += leaf[n].elastic;
+        total.external += leaf[n].external;
         total.plastic += state.leaf_work[n].plastic;
         total.decohesion += state.leaf_work[n].decohesion;
     }

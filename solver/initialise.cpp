@@ -1,4 +1,6 @@
 #include "core/error.h"
+#include "grid/halo.h"
+#include "grid/interface.h"
 #include "grid/topology.h"
 #include "refine/populate.h"
 #include "refine/regrid.h"
@@ -113,8 +115,15 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
     find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
     find_gauges(state, derived);
     derived.ligaments = ligament_map(problem);
-    transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
+    const auto scatter = [&] {
+        transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
+    };
+    scatter();
+    // A held node may get all of its mass from another leaf's particles, or from a finer level's.
+    grid::assemble_sums(state.levels);
+    grid::restrict_sums(state.levels);
     check_loads(problem, state.levels, derived);
+    scatter();
     const Ledger start = audit(prepared, state);
     state.initial_energy = start.kinetic + start.elastic;
     return state;

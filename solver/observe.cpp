@@ -81,13 +81,16 @@ Finish finished(const Problem& problem, const State& state)
     const HistoryLine& last = state.history.back();
     if (last.cod >= problem.end.cod) return Finish::cod;
     if (!problem.end.separated || last.separated_particles == 0) return Finish::no;
+    const auto force = [&](const HistoryLine& line) {
+        return std::abs(specimen_force(problem, line.force_upper, line.force_lower));
+    };
     Real peak = 0;
-    for (const HistoryLine& line : state.history) peak = std::max(peak, std::abs(line.force_upper));
+    for (const HistoryLine& line : state.history) peak = std::max(peak, force(line));
     // One quiet line may be ringing; ten in a row are not.
     constexpr std::size_t quiet_lines = 10;
     if (state.history.size() < quiet_lines || peak <= 0) return Finish::no;
     for (std::size_t n = state.history.size() - quiet_lines; n < state.history.size(); ++n)
-        if (std::abs(state.history[n].force_upper) > separated_share * peak) return Finish::no;
+        if (force(state.history[n]) > separated_share * peak) return Finish::no;
     return Finish::separated;
 }
 } // namespace solver

@@ -28,6 +28,7 @@ Prepared prepare(const Problem& problem)
 {
     Prepared prepared;
     prepared.laws = transfer::law_table(problem.materials);
+    prepared.gravity = problem.gravity;
     prepared.options.formulation = problem.numerics.formulation;
     prepared.options.transfer = problem.numerics.transfer;
     prepared.options.stress_update = problem.numerics.stress_update;

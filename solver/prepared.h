@@ -16,6 +16,7 @@ struct Prepared
     transfer::PassOptions options; // dt and time are filled in by each step
     std::vector<grid::WallPlane> walls;
     std::vector<Real> mass_cutoff; // g, per level
+    Vec3 gravity = Vec3::Zero();   // mm/ms^2
     Real wave_speed = 0;           // mm/ms, fastest c_d of all materials
     int per_axis = 2;              // particles per cell and axis
 };

@@ -132,10 +132,10 @@ struct Output
     std::vector<std::string> particle_fields; // names of io/particle_fields.h
     std::string particle_precision = "f32";   // or "f64"
     OutputEvery vdb;
-    std::vector<std::string> vdb_grids;        // density, damage, eq_plastic_strain, velocity
-    std::string vdb_preset = "blender";        // or "houdini"
-    Real vdb_scale = 1;                        // scene units per mm
-    std::optional<Real> checkpoint_every_wall; // s
+    std::vector<std::string> vdb_grids; // density, damage, eq_plastic_strain, velocity
+    std::string vdb_preset = "blender"; // or "houdini"
+    Real vdb_scale = 1;                 // scene units per mm
+    Real checkpoint_every_wall = 900;   // s
     int checkpoint_keep = 2;
 };
 

@@ -25,7 +25,9 @@ namespace
 Real signal_speed(const Prepared& prepared, const State& state, std::size_t p)
 {
     const particles::Particles& particles = state.particles;
-    const Real speed = std::hypot(particles.velocity[0][p], particles.velocity[1][p], particles.velocity[2][p]);
+    Real squared = 0; // not std::hypot, which drops a NaN beside two zeros
+    for (const particles::Column& v : particles.velocity) squared += v[p] * v[p];
+    const Real speed = std::sqrt(squared);
     if (!std::isfinite(speed)) not_finite(state, p);
     if (prepared.options.formulation == Formulation::updated) return prepared.wave_speed + speed;
     const std::int32_t crack = particles.crack[p];

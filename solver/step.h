@@ -28,17 +28,17 @@ void resume(const Problem& problem, const Prepared& prepared, State& state, Deri
 
 /// Advance by one time step: symplectic Euler, stress updated last, all levels with the same dt.
 ///
-/// | phase                         | reads                                   | writes |
-/// |-------------------------------|-----------------------------------------|-----------------------------------------|
-/// | stable_time_step              | speeds, deformation, spacing            | dt | | grid::assemble_sums           |
-/// halo sums of neighbours                 | mass, momentum, force of owned nodes    | | grid::restrict_sums | sums of
-/// slaves                          | sums of masters                         | | grid::advance_momentum        | mass,
-/// momentum, force                   | node velocity and its change            | | apply_loads                   |
-/// mass, momentum, force of held nodes     | their velocity; reactions               | | grid::prolong_motion |
-/// velocity of masters                     | velocity of slaves                      | | grid::fill_motion_halos |
-/// velocity of owners                      | velocity of halos                       | | transfer::advance_and_scatter
-/// | node velocity, particles                | particles; mass, momentum, force        | | follow_particles | strays |
-/// order of particles, leaves, load nodes  |
+/// | phase                         | reads                               | writes                           |
+/// |-------------------------------|-------------------------------------|----------------------------------|
+/// | stable_time_step              | speeds, deformation, spacing        | dt                               |
+/// | grid::assemble_sums           | halo sums of neighbours             | sums of owned nodes              |
+/// | grid::restrict_sums           | sums of slaves                      | sums of masters                  |
+/// | grid::advance_momentum        | mass, momentum, force               | node velocity and its change     |
+/// | apply_loads                   | sums of held nodes                  | their velocity; reactions        |
+/// | grid::prolong_motion          | velocity of masters                 | velocity of slaves               |
+/// | grid::fill_motion_halos       | velocity of owners                  | velocity of halos                |
+/// | transfer::advance_and_scatter | node velocity, particles            | particles; sums of the next step |
+/// | follow_particles              | strays                              | order of particles, leaves       |
 void step(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
 
 /// The same with the stress from velocities mapped again from the updated particles (MUSL).

@@ -307,7 +307,7 @@ TEST_F(Case, values_arrive_in_mm_g_ms)
     EXPECT_EQ(problem.loads.at(1).axis, 0);
     EXPECT_EQ(problem.output.history.steps, 7);
     EXPECT_EQ(problem.output.vdb_preset, "houdini");
-    EXPECT_NEAR(*problem.output.checkpoint_every_wall, 1200, 1e-9);
+    EXPECT_NEAR(problem.output.checkpoint_every_wall, 1200, 1e-9);
     EXPECT_NEAR(problem.references.at(0).measure.at("peak_force_N"), 8400, 1e-9);
 }
 

@@ -1,0 +1,127 @@
+/// `cleave bench`: throughput of the whole step beside what this machine can do at most.
+#include "app/bench_block.h"
+#include "app/commands.h"
+#include "transfer/machine_limits.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace app
+{
+namespace
+{
+struct Options
+{
+    bool json = false;
+    int cells = 50;
+    int steps = 15;
+    std::vector<int> threads;
+};
+
+const std::vector<BenchCase>& schemes()
+{
+    using enum solver::Formulation;
+    using enum solver::StressUpdate;
+    using enum solver::Transfer;
+    static const std::vector<BenchCase> list{{total, usl, flip, 1},   {total, musl, flip, 1},   {total, usl, apic, 1},
+                                             {updated, usl, flip, 1}, {updated, musl, flip, 1}, {updated, usl, apic, 1},
+                                             {total, usl, flip, 2}};
+    return list;
+}
+
+const char* name(solver::Formulation f)
+{
+    return f == solver::Formulation::total ? "total" : "updated";
+}
+const char* name(solver::StressUpdate s)
+{
+    return s == solver::StressUpdate::usl ? "usl" : "musl";
+}
+const char* name(solver::Transfer t)
+{
+    return t == solver::Transfer::flip ? "flip" : "apic";
+}
+
+BenchResult measured(const BenchCase& scheme, const Options& options, int threads,
+                     const transfer::MachineLimits& limits)
+{
+    BenchResult result = bench_block(scheme, options.cells, options.steps);
+    result.threads = threads;
+    const double roof = std::min(limits.triad_bytes_per_s / result.bytes_per_particle_step,
+                                 limits.fma_flops_per_s / result.flops_per_particle_step);
+    result.roof_share = result.particle_steps_per_s / roof;
+    return result;
+}
+
+nlohmann::json entry(const BenchResult& r, const transfer::MachineLimits& limits)
+{
+    return {{"basis", "trilinear"},
+            {"formulation", name(r.scheme.formulation)},
+            {"stress_update", name(r.scheme.stress_update)},
+            {"transfer", name(r.scheme.transfer)},
+            {"precision", "f64"},
+            {"levels", r.scheme.levels},
+            {"threads", r.threads},
+            {"particles", r.particles},
+            {"particle_steps_per_s", r.particle_steps_per_s},
+            {"bytes_per_particle_step", r.bytes_per_particle_step},
+            {"flops_per_particle_step", r.flops_per_particle_step},
+            {"roof_share", r.roof_share},
+            {"triad_GBs", limits.triad_bytes_per_s / 1e9},
+            {"fma_GFs", limits.fma_flops_per_s / 1e9}};
+}
+
+int bench(const Options& options)
+{
+    std::vector<int> threads = options.threads;
+    if (threads.empty()) {
+        threads.push_back(1);
+        const int hardware = static_cast<int>(std::thread::hardware_concurrency());
+        if (hardware > 1) threads.push_back(hardware);
+    }
+    nlohmann::json all = nlohmann::json::array();
+    for (const int t : threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(t));
+        const transfer::MachineLimits limits = transfer::measure_limits(t);
+        if (!options.json)
+            fmt::print("{} thread{}: triad {:.1f} GB/s, multiply-add peak {:.0f} GF/s\n"
+                       "{:<9} {:<5} {:<5} {:>6} {:>10} {:>12} {:>8} {:>9} {:>6}\n",
+                       t, t == 1 ? "" : "s", limits.triad_bytes_per_s / 1e9, limits.fma_flops_per_s / 1e9, "trilinear",
+                       "upd.", "tran.", "levels", "particles", "M steps/s", "B/step", "flop/step", "roof");
+        for (const BenchCase& scheme : schemes()) {
+            const BenchResult r = measured(scheme, options, t, limits);
+            all.push_back(entry(r, limits));
+            if (!options.json)
+                fmt::print("{:<9} {:<5} {:<5} {:>6} {:>10} {:>12.1f} {:>8.0f} {:>9.0f} {:>5.0f}%\n",
+                           name(r.scheme.formulation), name(r.scheme.stress_update), name(r.scheme.transfer),
+                           r.scheme.levels, r.particles, r.particle_steps_per_s / 1e6, r.bytes_per_particle_step,
+                           r.flops_per_particle_step, 100 * r.roof_share);
+        }
+    }
+    if (options.json) fmt::print("{}\n", all.dump(2));
+    return 0;
+}
+} // namespace
+
+void add_bench(CLI::App& program, Command& chosen)
+{
+    CLI::App* command =
+        program.add_subcommand("bench", "Measure the throughput of the step beside the machine's limits");
+    const auto options = std::make_shared<Options>();
+    command->add_flag("--json", options->json, "one array of objects instead of a table");
+    command->add_option("--cells", options->cells, "cells per side of the block (default 50: a million particles)")
+        ->check(CLI::Range(4, 200));
+    command->add_option("--steps", options->steps, "steps measured per scheme, the median counts")
+        ->check(CLI::Range(1, 10000));
+    command->add_option("--threads", options->threads, "thread counts (default: 1 and all)")
+        ->check(CLI::PositiveNumber);
+    command->callback([&chosen, options] { chosen = [options] { return bench(*options); }; });
+}
+} // namespace app

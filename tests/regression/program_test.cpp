@@ -1,0 +1,200 @@
+#include "tests/regression/program.h"
+
+#include <gtest/gtest.h>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace test
+{
+pid_t start(const std::vector<std::string>& arguments, const fs::path& output)
+{
+    std::vector<std::string> words{CLEAVE_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    const pid_t process = fork();
+    if (process != 0) return process;
+    const int file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    dup2(file, STDOUT_FILENO);
+    dup2(file, STDERR_FILENO);
+    execv(argv[0], argv.data());
+    _exit(127);
+}
+
+Outcome wait_for(pid_t process, const fs::path& output)
+{
+    int status = 0;
+    waitpid(process, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), contents(output)};
+}
+
+Outcome run(const std::vector<std::string>& arguments)
+{
+    const fs::path output = fs::path(testing::TempDir()) /
+                            (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".out");
+    return wait_for(start(arguments, output), output);
+}
+
+std::string contents(const fs::path& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+std::vector<std::string> files_below(const fs::path& directory)
+{
+    std::vector<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(directory))
+        if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), directory).string());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+} // namespace test
+
+namespace
+{
+const std::string source = CLEAVE_SOURCE_DIR;
+
+/// The challenge preview, so coarse and short that it takes seconds.
+std::vector<std::string> tiny_preview(const fs::path& directory, const std::vector<std::string>& more = {})
+{
+    std::vector<std::string> words{"run",   source + "/cases/snl/preview.toml",
+                                   "-o",    directory.string(),
+                                   "--set", "grid.cell=1.0",
+                                   "--set", "end.time=\"0.015 ms\"",
+                                   "--set", "output.particles.every_time=\"0.005 ms\"",
+                                   "--set", "output.vdb.every_time=\"0.005 ms\""};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+class Program : public testing::Test
+{
+protected:
+    Program()
+        : directory_(fs::path(testing::TempDir()) /
+                     ("cleave_program_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name())))
+    {
+        fs::remove_all(directory_);
+        fs::create_directories(directory_);
+    }
+    ~Program() override { fs::remove_all(directory_); }
+    fs::path below(const std::string& name) const { return directory_ / name; }
+
+private:
+    fs::path directory_;
+};
+
+bool has_checkpoint(const fs::path& directory)
+{
+    const std::vector<std::string> files = test::files_below(directory);
+    return std::any_of(files.begin(), files.end(), [](const std::string& f) {
+        return f.rfind("checkpoint/", 0) == 0 && fs::path(f).extension() == ".h5";
+    });
+}
+} // namespace
+
+TEST_F(Program, a_preview_run_writes_every_file)
+{
+    const test::Outcome outcome = test::run(tiny_preview(below("out")));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    for (const char* file : {"history.csv", "log.txt", "resolved.toml", "run.json"})
+        EXPECT_GT(test::contents(below("out") / file).size(), 50U) << file;
+    int particles = 0, volumes = 0, series = 0;
+    for (const std::string& file : test::files_below(below("out"))) {
+        particles += file.rfind("particles/", 0) == 0 && fs::path(file).extension() == ".hdf" ? 1 : 0;
+        series += fs::path(file).extension() == ".series" ? 1 : 0;
+        volumes += fs::path(file).extension() == ".vdb" ? 1 : 0;
+    }
+    EXPECT_GE(particles, 3);
+    EXPECT_GE(volumes, 3);
+    EXPECT_EQ(series, 1);
+    EXPECT_NE(test::contents(below("out") / "run.json").find("peak_force_N"), std::string::npos);
+
+    EXPECT_EQ(test::run({"metric", below("out").string()}).exit_code, 0);
+    EXPECT_EQ(test::run({"report", below("out").string()}).exit_code, 0);
+    EXPECT_GT(test::contents(below("out") / "report.html").size(), 1000U);
+}
+
+// Stopped after the first step, again in the middle, resumed on another number of threads: the same bits.
+TEST_F(Program, a_run_in_three_parts_leaves_the_files_of_one)
+{
+    const std::vector<std::string> wide{"--set", "output.particles.precision=\"f64\""};
+    auto with = [&](std::vector<std::string> more) {
+        more.insert(more.end(), wide.begin(), wide.end());
+        return more;
+    };
+    ASSERT_EQ(test::run(tiny_preview(below("one"), with({"--threads", "2"}))).exit_code, 0);
+    ASSERT_EQ(test::run(tiny_preview(below("parts"), with({"--threads", "1", "--walltime", "0"}))).exit_code, 75);
+    EXPECT_TRUE(has_checkpoint(below("parts")));
+    const test::Outcome second =
+        test::run(tiny_preview(below("parts"), with({"--threads", "2", "--walltime", "0.4", "--resume"})));
+    EXPECT_TRUE(second.exit_code == 75 || second.exit_code == 0) << second.output;
+    const test::Outcome third = test::run(tiny_preview(below("parts"), with({"--threads", "1", "--resume"})));
+    ASSERT_EQ(third.exit_code, 0) << third.output;
+    EXPECT_EQ(test::contents(below("one") / "history.csv"), test::contents(below("parts") / "history.csv"));
+    int compared = 0;
+    for (const std::string& file : test::files_below(below("one"))) {
+        if (file.rfind("particles/", 0) != 0) continue;
+        EXPECT_EQ(test::contents(below("one") / file), test::contents(below("parts") / file)) << file;
+        ++compared;
+    }
+    EXPECT_GE(compared, 3);
+}
+
+TEST_F(Program, a_termination_signal_stops_it_with_a_checkpoint)
+{
+    const fs::path output = below("out.txt");
+    const pid_t process = test::start(tiny_preview(below("out"), {"--set", "end.time=\"1.5 ms\""}), output);
+    for (int n = 0; n < 200 && !fs::exists(below("out") / "history.csv"); ++n) usleep(50000);
+    kill(process, SIGTERM);
+    const test::Outcome outcome = test::wait_for(process, output);
+    EXPECT_EQ(outcome.exit_code, 75) << outcome.output;
+    EXPECT_TRUE(has_checkpoint(below("out")));
+}
+
+TEST_F(Program, bad_input_has_exit_code_2)
+{
+    std::ofstream(below("bad.toml")) << "units = \"mm-g-ms\"\n[grid]\ncel = 1\n";
+    const test::Outcome typo = test::run({"run", below("bad.toml").string(), "-o", below("out").string()});
+    EXPECT_EQ(typo.exit_code, 2);
+    EXPECT_NE(typo.output.find("cel"), std::string::npos) << typo.output;
+    EXPECT_EQ(test::run(tiny_preview(below("out"), {"--set", "grid.cell=-1"})).exit_code, 2);
+    EXPECT_EQ(test::run({"run", "--no-such-option"}).exit_code, 2);
+    EXPECT_EQ(test::run({"no-such-command"}).exit_code, 2);
+}
+
+TEST_F(Program, numerical_failure_has_exit_code_3)
+{
+    const test::Outcome outcome =
+        test::run(tiny_preview(below("out"), {"--set", "load.upper_pin.velocity=[0, 1e9, 0]"}));
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
+    EXPECT_NE(outcome.output.find("particle"), std::string::npos) << outcome.output;
+    EXPECT_NE(test::contents(below("out") / "run.json").find("failed"), std::string::npos);
+}
+
+TEST_F(Program, file_errors_have_exit_code_4)
+{
+    std::ofstream(below("file")) << "not a directory";
+    const test::Outcome outcome = test::run(tiny_preview(below("file") / "out"));
+    EXPECT_EQ(outcome.exit_code, 4) << outcome.output;
+}
+
+TEST_F(Program, a_directory_that_holds_a_run_is_not_overwritten)
+{
+    const std::vector<std::string> brief{"--walltime", "0"};
+    ASSERT_EQ(test::run(tiny_preview(below("out"), brief)).exit_code, 75);
+    EXPECT_EQ(test::run(tiny_preview(below("out"), brief)).exit_code, 2);
+    EXPECT_EQ(test::run(tiny_preview(below("out"), {"--walltime", "0", "--force"})).exit_code, 75);
+}

@@ -1,0 +1,199 @@
+// Energy ledger, frame invariance, time step and gauges of whole runs.
+#include "core/error.h"
+#include "solver/audit.h"
+#include "solver/follow.h"
+#include "solver/observe.h"
+#include "solver/stable_time_step.h"
+#include "tests/support/runs.h"
+
+#include <gtest/gtest.h>
+
+using support::Job;
+
+namespace
+{
+constexpr solver::Formulation formulations[] = {solver::Formulation::updated, solver::Formulation::total};
+
+/// Stretch the bar to time `end` and return the ledger.
+solver::Ledger pulled(solver::Problem problem, Real end)
+{
+    Job run = support::started(problem);
+    while (run.state.clock.time < end) support::advance(1, run);
+    return solver::audit(run.prepared, run.state);
+}
+} // namespace
+
+TEST(Energy, a_smooth_elastic_pull_stores_the_work_of_the_loads)
+{
+    solver::Problem problem = support::bar(support::metal(), 0.05, 0.4);
+    for (const bool refined : {false, true}) {
+        if (refined) {
+            problem.grid.levels = 2;
+            problem.zones = {support::zone(geometry::box({-1, 1, -1}, {3, 2, 3}), 1)};
+        }
+        const solver::Ledger ledger = pulled(problem, 0.6);
+        EXPECT_GT(ledger.external, 0);
+        EXPECT_GT(ledger.elastic / ledger.external, 0.9);
+        EXPECT_LT(std::abs(ledger.residual()) / ledger.external, 1e-3) << refined;
+    }
+}
+
+TEST(Energy, a_plastic_pull_closes_the_ledger)
+{
+    material::Material metal = support::metal();
+    metal.plastic = material::VonMises{10, 50};
+    for (const solver::Formulation formulation : formulations) {
+        solver::Problem problem = support::bar(metal, 1, 0.1);
+        problem.numerics.formulation = formulation;
+        const solver::Ledger ledger = pulled(problem, 0.6);
+        EXPECT_GT(ledger.plastic / ledger.external, 0.5);
+        EXPECT_LT(std::abs(ledger.residual()) / ledger.external, 0.01);
+    }
+}
+
+namespace
+{
+/// Share of the energy a freely vibrating bar loses in 0.05 ms.
+Real loss_of_free_bar(Real cell)
+{
+    solver::Problem problem = support::bar(support::metal(), 0, 0);
+    problem.loads.clear();
+    problem.grid.cell = cell;
+    Job run = support::started(problem);
+    for (std::size_t p = 0; p < run.state.particles.size(); ++p)
+        run.state.particles.velocity[1][p] = 0.5 * (run.state.particles.position[1][p] - 2);
+    transfer::scatter(run.prepared.options, run.prepared.laws, run.state.strays, run.state.particles, run.state.levels);
+    const Real before = solver::audit(run.prepared, run.state).kinetic;
+    while (run.state.clock.time < 0.05) support::advance(1, run);
+    EXPECT_LT(solver::momentum(run.state.particles).norm(), 1e-12);
+    const solver::Ledger after = solver::audit(run.prepared, run.state);
+    return 1 - (after.kinetic + after.elastic) / before;
+}
+} // namespace
+
+// A.4, 13. FLIP with the stress updated last damps a wave at the rate dt w^2 (k h)^2: it never gains energy, and the
+// loss of a given mode falls with the third power of the cell size.
+TEST(Energy, a_free_elastic_body_gains_no_energy_and_loses_less_on_finer_cells)
+{
+    const Real coarse = loss_of_free_bar(0.5), fine = loss_of_free_bar(0.25);
+    EXPECT_GT(fine, 0);
+    EXPECT_LT(fine, coarse / 3);
+}
+
+// A.4, 12: a moving frame reproduces the run at rest. The total formulation never sees the grid move; in the updated
+// one the lattice is carried along by hand.
+TEST(Energy, a_frame_in_motion_changes_nothing)
+{
+    const Vec3 frame(30, -20, 10); // mm/ms
+    for (const solver::Formulation formulation : formulations) {
+        solver::Problem problem = support::bar(support::metal(), 0, 0);
+        problem.loads.clear();
+        problem.numerics.formulation = formulation;
+        const auto disturbed = [&](const Vec3& velocity) {
+            problem.bodies[0].velocity = velocity;
+            Job run = support::started(problem);
+            for (std::size_t p = 0; p < run.state.particles.size(); ++p)
+                run.state.particles.velocity[1][p] += 0.5 * (run.state.particles.rest_position[1][p] - 2);
+            solver::regrid(run.problem, run.prepared, run.state, run.derived);
+            return run;
+        };
+        Job rest = disturbed(Vec3::Zero()), moving = disturbed(frame);
+        for (int n = 0; n < 100; ++n) {
+            support::advance(1, rest);
+            support::advance(1, moving);
+            ASSERT_EQ(rest.state.clock.dt, moving.state.clock.dt);
+            if (formulation == solver::Formulation::total) continue;
+            moving.state.levels.origin = frame * moving.state.clock.time;
+            solver::regrid(rest.problem, rest.prepared, rest.state, rest.derived);
+            solver::regrid(moving.problem, moving.prepared, moving.state, moving.derived);
+        }
+        ASSERT_EQ(rest.state.particles.id, moving.state.particles.id);
+        Real velocity = 0, stress = 0, largest = 0;
+        for (std::size_t p = 0; p < rest.state.particles.size(); ++p) {
+            for (std::size_t a = 0; a < 3; ++a)
+                velocity =
+                    std::max(velocity, std::abs(moving.state.particles.velocity[a][p] - frame[static_cast<int>(a)] -
+                                                rest.state.particles.velocity[a][p]));
+            for (std::size_t c = 0; c < 6; ++c) {
+                stress =
+                    std::max(stress, std::abs(moving.state.particles.stress[c][p] - rest.state.particles.stress[c][p]));
+                largest = std::max(largest, std::abs(rest.state.particles.stress[c][p]));
+            }
+        }
+        EXPECT_LT(velocity, 1e-10);
+        EXPECT_LT(stress, 1e-9 * largest);
+    }
+}
+
+TEST(StableTimeStep, is_the_wave_transit_of_the_finest_cell_and_shrinks_with_compression)
+{
+    solver::Problem problem = support::bar(support::metal(), 0, 0);
+    problem.grid.levels = 2;
+    problem.zones = {support::zone(geometry::box({-1, 1, -1}, {3, 2, 3}), 1)};
+    Job run = support::started(problem);
+    const Real transit = 0.25 / run.prepared.wave_speed;
+    EXPECT_NEAR(solver::stable_time_step(run.problem, run.prepared, run.state), 0.5 * transit, 1e-15);
+
+    // Half as long along y, on the coarse and then on the fine cells.
+    const auto compress = [&](int level, Real stretch) {
+        for (std::size_t p = 0; p < run.state.particles.size(); ++p)
+            if (run.state.particles.size_level[p] == level) run.state.particles.deformation_gradient[4][p] = stretch;
+    };
+    compress(0, 0.5);
+    EXPECT_NEAR(solver::stable_time_step(run.problem, run.prepared, run.state), 0.5 * transit, 1e-15);
+    compress(1, 0.5);
+    EXPECT_NEAR(solver::stable_time_step(run.problem, run.prepared, run.state), 0.8 * 0.5 * transit, 1e-15);
+    compress(1, -0.1);
+    EXPECT_THROW((void)solver::stable_time_step(run.problem, run.prepared, run.state), core::NumericalError);
+}
+
+TEST(StableTimeStep, shrinks_with_speed_in_the_updated_formulation)
+{
+    solver::Problem problem = support::bar(support::metal(), 0, 0);
+    problem.numerics.formulation = solver::Formulation::updated;
+    problem.loads.clear();
+    problem.bodies[0].velocity = {0, 1000, 0};
+    Job run = support::started(problem);
+    EXPECT_NEAR(solver::stable_time_step(run.problem, run.prepared, run.state),
+                0.8 * 0.5 / (run.prepared.wave_speed + 1000), 1e-15);
+}
+
+TEST(StableTimeStep, names_the_particle_that_is_not_finite)
+{
+    for (const solver::Formulation formulation : formulations) {
+        solver::Problem problem = support::bar(support::metal(), 0, 0);
+        problem.numerics.formulation = formulation;
+        Job run = support::started(problem);
+        run.state.particles.velocity[1][7] = std::numeric_limits<Real>::quiet_NaN();
+        try {
+            support::advance(1, run);
+            FAIL() << "no error";
+        } catch (const core::NumericalError& error) {
+            const std::string id = std::to_string(run.state.particles.id[7]);
+            EXPECT_EQ(std::string(error.what()).find("particle " + id + " has no finite motion at step 0"), 0U)
+                << error.what();
+        }
+    }
+}
+
+TEST(StableTimeStep, a_position_that_is_not_finite_stops_the_updated_formulation)
+{
+    solver::Problem problem = support::bar(support::metal(), 0, 0);
+    problem.numerics.formulation = solver::Formulation::updated;
+    Job run = support::started(problem);
+    support::advance(1, run);
+    run.state.particles.velocity[1][7] = std::numeric_limits<Real>::quiet_NaN();
+    transfer::scatter(run.prepared.options, run.prepared.laws, run.state.strays, run.state.particles, run.state.levels);
+    EXPECT_THROW(support::advance(1, run), core::NumericalError); // not a multiple of time_step_interval
+}
+
+TEST(Gauge, measures_the_change_of_distance_between_two_places)
+{
+    solver::Problem problem = support::bar(support::metal(), 0, 0);
+    problem.gauge = solver::Gauge{{1, 3, 0.5}, {1, 1, 0.5}, 1};
+    Job run = support::started(problem);
+    EXPECT_EQ(solver::gauge_opening(run.problem, run.state, run.derived), 0);
+    for (std::size_t p = 0; p < run.state.particles.size(); ++p)
+        run.state.particles.position[1][p] += 0.01 * run.state.particles.rest_position[1][p];
+    EXPECT_NEAR(solver::gauge_opening(run.problem, run.state, run.derived), 0.02, 1e-12);
+}

@@ -1,0 +1,202 @@
+#include "solver/loads.h"
+
+#include "core/error.h"
+#include "solver/audit.h"
+#include "solver/observe.h"
+#include "tests/support/runs.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+using solver::Ramp;
+using support::Job;
+
+namespace
+{
+std::string complaint(const solver::Problem& problem)
+{
+    try {
+        (void)support::started(problem);
+    } catch (const core::InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+Vec3 sum_of_impulses(const Job& run)
+{
+    Vec3 sum = Vec3::Zero();
+    for (const solver::LoadState& load : run.state.loads) sum += load.impulse;
+    return sum;
+}
+
+Real mass_of(const Job& run)
+{
+    Real mass = 0;
+    for (const Real m : run.state.particles.mass) mass += m;
+    return mass;
+}
+
+/// Angular momentum of the particles about the z axis through the origin.
+Real angular_momentum(const particles::Particles& particles)
+{
+    Real sum = 0;
+    for (std::size_t p = 0; p < particles.size(); ++p)
+        sum += particles.mass[p] * (particles.position[0][p] * particles.velocity[1][p] -
+                                    particles.position[1][p] * particles.velocity[0][p]);
+    return sum;
+}
+
+/// `check(problem)` with every formulation, transfer, share of PIC and stress update.
+template <class Check>
+void for_each_scheme(solver::Problem problem, const Check& check)
+{
+    for (const auto formulation : {solver::Formulation::updated, solver::Formulation::total})
+        for (const auto update : {solver::StressUpdate::usl, solver::StressUpdate::musl})
+            for (const Real pic : {-1.0, 0.0, 0.3}) {
+                problem.numerics.formulation = formulation;
+                problem.numerics.stress_update = update;
+                problem.numerics.transfer = pic < 0 ? solver::Transfer::apic : solver::Transfer::flip;
+                problem.numerics.pic_fraction = std::max(pic, Real(0));
+                check(problem);
+            }
+}
+} // namespace
+
+TEST(Ramp, smooth_step_starts_and_ends_without_slope_or_curvature)
+{
+    const Ramp ramp{Ramp::Kind::smooth_step, 2};
+    EXPECT_EQ(solver::ramp_value(ramp, -1), 0);
+    EXPECT_EQ(solver::ramp_value(ramp, 0), 0);
+    EXPECT_NEAR(solver::ramp_value(ramp, 1), 0.5, 1e-15);
+    EXPECT_EQ(solver::ramp_value(ramp, 2), 1);
+    EXPECT_EQ(solver::ramp_value(ramp, 3), 1);
+    const Real e = 1e-4;
+    for (const Real end : {0.0, 2.0}) {
+        const auto value = [&](Real t) { return solver::ramp_value(ramp, end + t); };
+        EXPECT_LT(std::abs(value(e) - value(-e)) / (2 * e), 1e-7);
+        EXPECT_LT(std::abs(value(e) - 2 * value(0) + value(-e)) / (e * e), 1e-2);
+    }
+    for (Real t = 0; t < 2; t += 0.01) EXPECT_LE(solver::ramp_value(ramp, t), solver::ramp_value(ramp, t + 0.01));
+}
+
+TEST(Ramp, linear_and_step)
+{
+    EXPECT_NEAR(solver::ramp_value({Ramp::Kind::linear, 4}, 1), 0.25, 1e-15);
+    EXPECT_EQ(solver::ramp_value({Ramp::Kind::linear, 4}, 5), 1);
+    EXPECT_EQ(solver::ramp_value({Ramp::Kind::step, 4}, 0), 1);
+    EXPECT_EQ(solver::ramp_value({Ramp::Kind::smooth_step, 0}, 0), 1);
+}
+
+TEST(Loads, reactions_are_the_momentum_that_regions_give_the_body)
+{
+    for_each_scheme(support::bar(support::metal(), 5, 0.01), [](const solver::Problem& problem) {
+        Job run = support::started(problem);
+        support::advance(60, run);
+        const Vec3 momentum = solver::momentum(run.state.particles);
+        EXPECT_GT(momentum.norm(), 0.01 * mass_of(run));
+        EXPECT_LT((momentum - sum_of_impulses(run)).norm(), 1e-12 * mass_of(run));
+    });
+}
+
+TEST(Loads, reactions_are_the_momentum_that_pins_give_the_body)
+{
+    solver::Problem plate = support::plate(support::metal(), 5, 0.01);
+    plate.loads[1].velocity = {1.0, 2.0, {}};
+    for_each_scheme(plate, [](const solver::Problem& problem) {
+        Job run = support::started(problem);
+        support::advance(60, run);
+        const Vec3 momentum = solver::momentum(run.state.particles);
+        EXPECT_GT(momentum.norm(), 0.01 * mass_of(run));
+        EXPECT_LT((momentum - sum_of_impulses(run)).norm(), 1e-12 * mass_of(run));
+    });
+}
+
+TEST(Loads, a_symmetric_specimen_loads_both_pins_alike)
+{
+    Job run = support::started(support::plate(support::metal(), 2, 0.05));
+    support::advance(300, run);
+    const Real upper = run.state.loads[0].impulse[1], lower = run.state.loads[1].impulse[1];
+    EXPECT_GT(upper, 0);
+    EXPECT_NEAR(upper, -lower, 1e-10 * upper);
+    EXPECT_NEAR(run.state.loads[0].spin, 0, 1e-10);
+    const solver::HistoryLine line = solver::observe(run.problem, run.prepared, run.derived, run.state);
+    EXPECT_NEAR(line.force_upper, line.force_lower, 1e-10 * line.force_upper);
+    EXPECT_NEAR(line.force_upper, upper / run.state.clock.time, 1e-12 * line.force_upper);
+}
+
+TEST(Loads, symmetry_planes_count_the_other_half_of_the_force)
+{
+    solver::Problem whole = support::bar(support::metal(), 2, 0.02);
+    whole.bodies[0].shape = geometry::box({-2, 0, 0}, {2, 4, 1});
+    solver::Problem half = support::bar(support::metal(), 2, 0.02);
+    half.symmetry = {{0, 0}};
+    Real force[2];
+    for (const bool halved : {false, true}) {
+        Job run = support::started(halved ? half : whole);
+        support::advance(200, run);
+        force[halved] = solver::observe(run.problem, run.prepared, run.derived, run.state).force_upper;
+    }
+    EXPECT_NEAR(force[0], force[1], 1e-9 * force[0]);
+}
+
+// A body that spins about a pin at rest: nothing turns the pin, so its spin and the angular momentum stay.
+TEST(Loads, a_pin_turns_freely)
+{
+    const Real spin = 20; // rad/ms
+    for (const auto formulation : {solver::Formulation::updated, solver::Formulation::total})
+        for (const auto transfer : {solver::Transfer::flip, solver::Transfer::apic}) {
+            solver::Problem problem = support::plate(support::metal(), 0, 0);
+            problem.bodies[0].shape = geometry::subtract(geometry::cylinder({0, 0, 0}, {0, 0, 1}, 3),
+                                                         {support::pin("", {0, 0, 0}, 1, {}, 0).region});
+            problem.loads = {support::pin("pin", {0, 0, 0}, 1, {0.0, 0.0, {}}, 0)};
+            problem.force_upper = problem.force_lower = "pin";
+            problem.numerics.formulation = formulation;
+            problem.numerics.transfer = transfer;
+            Job run = support::started(problem);
+            particles::Particles& particles = run.state.particles;
+            for (std::size_t p = 0; p < particles.size(); ++p) {
+                particles.velocity[0][p] = -spin * particles.position[1][p];
+                particles.velocity[1][p] = spin * particles.position[0][p];
+                if (transfer == solver::Transfer::flip) continue;
+                particles.affine[1][p] = -spin;
+                particles.affine[3][p] = spin;
+            }
+            run.state.loads[0].spin = spin;
+            transfer::scatter(run.prepared.options, run.prepared.laws, run.state.strays, particles, run.state.levels);
+            SCOPED_TRACE(std::to_string(int(formulation)) + std::to_string(int(transfer)));
+            const Real before = angular_momentum(particles);
+            Real mean_spin = 0;
+            for (int n = 0; n < 200; ++n) {
+                support::advance(1, run);
+                mean_spin += run.state.loads[0].spin / 200;
+            }
+            EXPECT_GT(run.state.loads[0].angle, 0.4);
+            EXPECT_NEAR(angular_momentum(particles) / before, 1, 0.02);
+            EXPECT_NEAR(mean_spin / spin, 1, 0.03);
+        }
+}
+
+TEST(Loads, a_load_that_misses_the_body_is_an_input_error)
+{
+    solver::Problem problem = support::bar(support::metal(), 1, 0);
+    problem.loads[0].region = geometry::box({5, 5, 5}, {6, 6, 6});
+    EXPECT_EQ(complaint(problem),
+              "load 'top' holds no node with mass: its region misses the body or is smaller than a cell");
+}
+
+TEST(Loads, a_body_without_particles_is_an_input_error)
+{
+    solver::Problem problem = support::bar(support::metal(), 1, 0);
+    problem.bodies.push_back({"foil", geometry::box({0, 5, 0}, {1, 5.001, 1}), 0, Vec3::Zero()});
+    EXPECT_EQ(complaint(problem),
+              "body 'foil' has no particle: it is thinner than a cell of 0.5 mm, or its shape is empty");
+}
+
+TEST(Loads, a_symmetry_plane_between_nodes_is_an_input_error)
+{
+    solver::Problem problem = support::bar(support::metal(), 1, 0);
+    problem.symmetry = {{1, 0.2}};
+    EXPECT_EQ(complaint(problem), "symmetry plane y = 0.2 mm lies between node planes of level 0 (nearest: 0 mm); move "
+                                  "it or set grid.origin");
+}

@@ -1,0 +1,113 @@
+/// Whole scenes in code: a bar, a plate with pins, and how to advance them.
+#pragma once
+
+#include "solver/step.h"
+
+#include <limits>
+
+namespace support
+{
+struct Job
+{
+    solver::Problem problem;
+    solver::Prepared prepared;
+    solver::Derived derived;
+    solver::State state;
+};
+
+inline Job started(const solver::Problem& problem)
+{
+    Job run{problem, solver::prepare(problem), {}, {}};
+    run.state = solver::initialise(run.problem, run.prepared, run.derived);
+    return run;
+}
+
+inline void advance(int steps, Job& run)
+{
+    for (int n = 0; n < steps; ++n) solver::advance(run.problem, run.prepared, run.state, run.derived);
+}
+
+/// E = 1000 MPa, nu = 0.3, 1e-3 g/mm^3: c_d = 1160 mm/ms.
+inline material::Material metal()
+{
+    material::Material m;
+    m.name = "metal";
+    m.elastic = {1e-3, 1000, 0.3};
+    return m;
+}
+
+inline solver::Load load(const std::string& name, const geometry::Shape& region,
+                         const std::array<std::optional<Real>, 3>& velocity, Real ramp_time)
+{
+    solver::Load l;
+    l.name = name;
+    l.region = region;
+    l.velocity = velocity;
+    l.ramp.time = ramp_time;
+    return l;
+}
+
+inline solver::Load pin(const std::string& name, const Vec3& centre, Real radius,
+                        const std::array<std::optional<Real>, 3>& velocity, Real ramp_time)
+{
+    const Vec3 along(0, 0, 100);
+    solver::Load l = load(name, geometry::cylinder(centre - along, centre + along, radius), velocity, ramp_time);
+    l.kind = solver::Load::Kind::pin;
+    l.centre = centre;
+    return l;
+}
+
+/// Region beyond `at` along an axis: above it (side +1) or below (side -1).
+inline geometry::Shape beyond(int axis, Real at, int side)
+{
+    Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
+    point[axis] = at;
+    normal[axis] = -side;
+    return geometry::half_space(point, normal);
+}
+
+/// Bar [0, 2] x [0, 4] x [0, 1] of one material, cells of 0.5 mm, held below and pulled along y above.
+inline solver::Problem bar(const material::Material& material, Real speed, Real ramp_time)
+{
+    solver::Problem problem;
+    problem.title = "bar";
+    problem.grid.cell = 0.5;
+    problem.materials = {material};
+    problem.bodies = {{"bar", geometry::box({0, 0, 0}, {2, 4, 1}), 0, Vec3::Zero()}};
+    problem.loads = {load("top", beyond(1, 4, 1), {0.0, speed, 0.0}, ramp_time),
+                     load("bottom", beyond(1, 0, -1), {0.0, 0.0, 0.0}, ramp_time)};
+    problem.force_upper = "top";
+    problem.force_lower = "bottom";
+    problem.end.separated = false;
+    return problem;
+}
+
+/// Plate [-3, 3] x [-4, 4] x [0, 1] with two holes on x = 0, pulled apart by pins in them.
+inline solver::Problem plate(const material::Material& material, Real speed, Real ramp_time)
+{
+    const auto hole = [](Real y) { return geometry::cylinder({0, y, -1}, {0, y, 2}, 1); };
+    solver::Problem problem;
+    problem.title = "plate";
+    problem.grid.cell = 0.5;
+    problem.materials = {material};
+    problem.bodies = {
+        {"plate", geometry::subtract(geometry::box({-3, -4, 0}, {3, 4, 1}), {hole(2), hole(-2)}), 0, Vec3::Zero()}};
+    problem.loads = {pin("upper", {0, 2, 0}, 1, {0.0, speed, {}}, ramp_time),
+                     pin("lower", {0, -2, 0}, 1, {0.0, -speed, {}}, ramp_time)};
+    problem.force_upper = "upper";
+    problem.force_lower = "lower";
+    problem.end.separated = false;
+    return problem;
+}
+
+/// Refine everything inside a shape.
+inline refine::Zone zone(const geometry::Shape& shape, int level)
+{
+    return {"zone", shape, level, 0};
+}
+
+inline geometry::Shape everywhere()
+{
+    return geometry::box(Vec3::Constant(-100), Vec3::Constant(100));
+}
+} // namespace support
