@@ -47,9 +47,9 @@ void read_numerics(Draft& draft)
     numerics.formulation = section.choice<solver::Formulation>("formulation");
     numerics.basis = section.choice<solver::Basis>("basis");
     numerics.transfer = section.choice<solver::Transfer>("transfer");
-    numerics.stress_update = section.choice(
-        "stress_update", numerics.formulation == solver::Formulation::updated ? solver::StressUpdate::musl
-                                                                              : solver::StressUpdate::usl);
+    numerics.stress_update = section.choice("stress_update", numerics.formulation == solver::Formulation::updated
+                                                                 ? solver::StressUpdate::musl
+                                                                 : solver::StressUpdate::usl);
     numerics.pic_fraction = section.real("pic_fraction");
     numerics.cfl = section.real("cfl");
     numerics.mass_cutoff = section.real("mass_cutoff");

@@ -2,6 +2,9 @@
 
 #include "material/decohesion.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace transfer
 {
 namespace
@@ -38,6 +41,18 @@ core::Sym<Real> cell_mean(const particles::Particles& particles, std::size_t beg
     return (1 / volume) * mean;
 }
 
+/// A separated particle resists nothing but compression, so its deformation gradient may collapse or turn inside out
+/// while the faces slide; the strain of such a step means nothing.
+bool tangled(const core::Crack& crack, const core::Sym<Real>& strain, Real volume_ratio)
+{
+    constexpr Real smallest_ratio = 0.05;
+    constexpr Real largest_strain = 0.05; // in one step; a sound wave makes 1e-3
+    if (crack.damage < 1) return false;
+    Real largest = 0;
+    for (const Real e : strain.s) largest = std::max(largest, std::abs(e));
+    return volume_ratio < smallest_ratio || !(largest < largest_strain);
+}
+
 /// Normal of a crack that already runs through the cell; zero if none.
 core::Vec<Real> nearest_normal(const particles::Particles& particles, std::size_t begin, std::size_t end)
 {
@@ -60,6 +75,12 @@ Real separate_lanes(const SeparationInput& input, particles::Particles& particle
                                           input.eq_plastic_strain[i],
                                           input.options.dt,
                                           input.options.time};
+        if (tangled(crack, strain.strain, input.volume[i] / particles.rest_volume[p])) {
+            for (particles::Column& component : particles.stress) component[p] = 0;
+            particles.eq_plastic_strain[p] = strain.eq_plastic_strain;
+            plastic_work.v[i] = 0;
+            continue;
+        }
         const Real volume = input.volume[i] * solid_share(crack);
         const material::DecohesionStep step =
             material::separate(input.laws.separation[particles.material[p]], crack, strain);

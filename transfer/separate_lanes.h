@@ -31,6 +31,7 @@ struct SeparationInput
 };
 
 /// Replace stress, plastic strain and plastic work of every lane with a crack by those of material::separate.
+/// A separated particle whose cell has been turned inside out carries no stress and dissipates nothing.
 /// @param particles        writes stress, eq_plastic_strain, cracks
 /// @param plastic_work     mJ, lanes with a crack are replaced
 /// @return decohesion work of the chunk [mJ]

@@ -143,15 +143,17 @@ TEST(Loads, symmetry_planes_count_the_other_half_of_the_force)
 // A body that spins about a pin at rest: nothing turns the pin, so its spin and the angular momentum stay.
 TEST(Loads, a_pin_turns_freely)
 {
-    const Real spin = 20; // rad/ms
-    for (const auto formulation : {solver::Formulation::updated, solver::Formulation::total})
+    for (const auto formulation : {solver::Formulation::total, solver::Formulation::updated})
         for (const auto transfer : {solver::Transfer::flip, solver::Transfer::apic}) {
+            // Faster, and particles of the updated formulation that enter empty cells at the rim blow up (methods.md
+            // B4).
+            const Real spin = formulation == solver::Formulation::updated ? 1 : 20; // rad/ms
             solver::Problem problem = support::plate(support::metal(), 0, 0);
             problem.bodies[0].shape = geometry::subtract(geometry::cylinder({0, 0, 0}, {0, 0, 1}, 3),
                                                          {support::pin("", {0, 0, 0}, 1, {}, 0).region});
             problem.loads = {support::pin("pin", {0, 0, 0}, 1, {0.0, 0.0, {}}, 0)};
             problem.force_upper = problem.force_lower = "pin";
-            problem.numerics.formulation = formulation;
+            problem.numerics = support::numerics(formulation);
             problem.numerics.transfer = transfer;
             Job run = support::started(problem);
             particles::Particles& particles = run.state.particles;
@@ -164,16 +166,11 @@ TEST(Loads, a_pin_turns_freely)
             }
             run.state.loads[0].spin = spin;
             transfer::scatter(run.prepared.options, run.prepared.laws, run.state.strays, particles, run.state.levels);
-            SCOPED_TRACE(std::to_string(int(formulation)) + std::to_string(int(transfer)));
             const Real before = angular_momentum(particles);
-            Real mean_spin = 0;
-            for (int n = 0; n < 200; ++n) {
-                support::advance(1, run);
-                mean_spin += run.state.loads[0].spin / 200;
-            }
-            EXPECT_GT(run.state.loads[0].angle, 0.4);
+            support::advance(200, run);
+            SCOPED_TRACE(testing::Message() << "formulation " << int(formulation) << ", transfer " << int(transfer));
+            EXPECT_NEAR(run.state.loads[0].angle / (spin * run.state.clock.time), 1, 0.03);
             EXPECT_NEAR(angular_momentum(particles) / before, 1, 0.02);
-            EXPECT_NEAR(mean_spin / spin, 1, 0.03);
         }
 }
 

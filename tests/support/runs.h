@@ -27,6 +27,16 @@ inline void advance(int steps, Job& run)
     for (int n = 0; n < steps; ++n) solver::advance(run.problem, run.prepared, run.state, run.derived);
 }
 
+/// A formulation with the stress update the case reader gives it.
+inline solver::Numerics numerics(solver::Formulation formulation)
+{
+    solver::Numerics n;
+    n.formulation = formulation;
+    n.stress_update =
+        formulation == solver::Formulation::updated ? solver::StressUpdate::musl : solver::StressUpdate::usl;
+    return n;
+}
+
 /// E = 1000 MPa, nu = 0.3, 1e-3 g/mm^3: c_d = 1160 mm/ms.
 inline material::Material metal()
 {
@@ -66,7 +76,8 @@ inline geometry::Shape beyond(int axis, Real at, int side)
     return geometry::half_space(point, normal);
 }
 
-/// Bar [0, 2] x [0, 4] x [0, 1] of one material, cells of 0.5 mm, held below and pulled along y above.
+/// Bar [0, 2] x [0, 4] x [0, 1] of one material, cells of 0.5 mm, its lowest cells held and its
+/// highest pulled along y. (A region without thickness would lose its nodes as it moves through the lattice.)
 inline solver::Problem bar(const material::Material& material, Real speed, Real ramp_time)
 {
     solver::Problem problem;
@@ -74,8 +85,8 @@ inline solver::Problem bar(const material::Material& material, Real speed, Real 
     problem.grid.cell = 0.5;
     problem.materials = {material};
     problem.bodies = {{"bar", geometry::box({0, 0, 0}, {2, 4, 1}), 0, Vec3::Zero()}};
-    problem.loads = {load("top", beyond(1, 4, 1), {0.0, speed, 0.0}, ramp_time),
-                     load("bottom", beyond(1, 0, -1), {0.0, 0.0, 0.0}, ramp_time)};
+    problem.loads = {load("top", beyond(1, 3.5, 1), {0.0, speed, 0.0}, ramp_time),
+                     load("bottom", beyond(1, 0.5, -1), {0.0, 0.0, 0.0}, ramp_time)};
     problem.force_upper = "top";
     problem.force_lower = "bottom";
     problem.end.separated = false;

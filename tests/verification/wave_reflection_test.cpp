@@ -4,8 +4,9 @@
 //   R = (cos a_1 - cos a_2) / (cos a_1 + cos a_2),   no free parameter.
 //
 // The affine transfer is the lumped scheme exactly in one dimension. FLIP is not: nodes get their velocity from the
-// particles again, which multiplies the velocity by (consistent mass) / (lumped mass), so its dispersion, and with it
-// the reflection, is about three times as large.
+// particles again, which filters it with A = (consistent mass) / (lumped mass) = 1 - 3/4 sin^2 a, and with the stress
+// updated last a wave of frequency w decays at the rate (1 - A) dt w^2 / 2; nothing is left of the short ones to
+// measure.
 #include "tests/support/bars.h"
 
 #include <gtest/gtest.h>
@@ -79,13 +80,6 @@ TEST(WaveReflection, at_an_interface_is_that_of_the_closed_form)
     const std::vector<Real> reflection = measured(solver::Transfer::apic, wavelengths, true);
     for (std::size_t i = 0; i < wavelengths.size(); ++i)
         EXPECT_NEAR(reflection[i] / closed_form(wavelengths[i]), 1, 0.03) << wavelengths[i] << " cells";
-}
-
-TEST(WaveReflection, of_flip_is_about_three_times_as_large)
-{
-    const std::vector<Real> reflection = measured(solver::Transfer::flip, wavelengths, true);
-    for (std::size_t i = 0; i < wavelengths.size(); ++i)
-        EXPECT_NEAR(reflection[i] / closed_form(wavelengths[i]), 3, 1) << wavelengths[i] << " cells";
 }
 
 TEST(WaveReflection, vanishes_without_an_interface)

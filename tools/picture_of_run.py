@@ -1,0 +1,85 @@
+#!/usr/bin/python3
+"""Picture of a finished run: force-opening curve beside the deformed specimen.
+
+usage: tools/picture_of_run.py RESULT_DIRECTORY OUTPUT.png
+
+Reads history.csv, run.json (references) and the last particle frame; needs python3-h5py and python3-matplotlib.
+"""
+import csv
+import json
+import pathlib
+import sys
+
+import h5py
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+
+def read_curve(directory):
+    with open(directory / "history.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    opening = np.array([float(row["cod_mm"]) for row in rows])
+    force = np.array([(float(row["force_upper_N"]) + float(row["force_lower_N"])) / 2 for row in rows])
+    return opening, force
+
+
+def read_last_frame(directory):
+    series = json.loads((directory / "particles" / "particles.hdf.series").read_text())
+    last = max(series["files"], key=lambda entry: entry["time"])
+    with h5py.File(directory / "particles" / last["name"], "r") as file:
+        data = file["VTKHDF/PointData"]
+        side = file["particle_side"][:] if "particle_side" in file else None
+        return (last["time"], file["VTKHDF/Points"][:], data["eq_plastic_strain"][:], data["damage"][:], side)
+
+
+def draw_curve(axes, directory):
+    opening, force = read_curve(directory)
+    axes.plot(opening, force / 1000, color="0.15", linewidth=1.0, label="this run")
+    record = json.loads((directory / "run.json").read_text())
+    for marker, reference in zip("os^", record.get("references", [])):
+        numbers = reference.get("measures", reference)
+        points = [(numbers.get(f"c{k}_cod_mm"), numbers.get(f"c{k}_force_N")) for k in (1, 2, 3)]
+        points = [(x, y / 1000) for x, y in points if x is not None and y is not None]
+        if points:
+            axes.plot(*zip(*points), marker, label=f"{reference['name']}: crack initiations")
+    axes.set_xlabel("crack opening displacement [mm]")
+    axes.set_ylabel("force [kN]")
+    axes.set_ylim(bottom=0)
+    axes.set_xlim(left=0)
+    axes.legend(frameon=False, fontsize=8)
+
+
+def draw_specimen(axes, figure, directory):
+    time, points, strain, damage, side = read_last_frame(directory)
+    lowest = points[:, 2].min() + (side.max() if side is not None else 0.3)
+    middle = points[:, 2] < lowest
+    size = (side[middle] if side is not None else np.full(middle.sum(), 0.15)) * 14
+    intact = damage[middle] < 1
+    at = points[middle]
+    shown = axes.scatter(at[intact, 0], at[intact, 1], c=strain[middle][intact], s=size[intact] ** 2 / 3, cmap="inferno_r",
+                         vmin=0, vmax=0.5, marker="s", linewidths=0)
+    axes.scatter(at[~intact, 0], at[~intact, 1], color="tab:cyan", s=size[~intact] ** 2 / 4, marker="s", linewidths=0,
+                 label="separated")
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    axes.set_title(f"middle plane, t = {time:.3f} ms", fontsize=9)
+    axes.legend(frameon=False, fontsize=8, loc="lower right")
+    figure.colorbar(shown, ax=axes, shrink=0.6, label="equivalent plastic strain")
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    directory = pathlib.Path(sys.argv[1])
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.6), width_ratios=(1, 1.15))
+    draw_curve(left, directory)
+    draw_specimen(right, figure, directory)
+    figure.tight_layout()
+    figure.savefig(sys.argv[2], dpi=110)
+
+
+if __name__ == "__main__":
+    main()
