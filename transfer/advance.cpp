@@ -20,11 +20,12 @@ void advance_leaf(const PassOptions& options, const LawTable& laws, std::size_t 
                   particles::Particles& particles, LeafOutcome& outcome)
 {
     const std::uint32_t* start = levels.cell_start.data() + leaf * grid::leaf_cells;
+    const LeafFrame frame = leaf_frame(levels, leaf);
     with_stress_update(options, [&]<Formulation F, Transfer T, StressUpdate S>() {
         for (int c = 0; c < grid::leaf_cells; ++c)
             if (start[c] != start[c + 1])
-                advance_cell<F, T, S>(options, laws, cell_frame(levels, levels.leaves[leaf], c), Visitors::residents,
-                                      levels.motions(leaf), start[c], start[c + 1], particles, outcome);
+                advance_cell<F, T, S>(options, laws, cell_frame(frame, c), Visitors::residents, levels.motions(leaf),
+                                      start[c], start[c + 1], particles, outcome);
     });
 }
 
@@ -37,7 +38,7 @@ void advance_strays(const PassOptions& options, const LawTable& laws, const Stra
             for (std::uint32_t s = strays.run[r]; s < strays.run[r + 1]; ++s) {
                 const auto leaf = static_cast<std::size_t>(strays.leaf[s]);
                 const std::uint32_t p = strays.particle[s];
-                advance_cell<F, T, S>(options, laws, cell_frame(levels, levels.leaves[leaf], strays.cell[s]),
+                advance_cell<F, T, S>(options, laws, cell_frame(leaf_frame(levels, leaf), strays.cell[s]),
                                       Visitors::stray, levels.motions(leaf), p, p + 1, particles, outcome[leaf]);
             }
         });

@@ -24,15 +24,26 @@ struct CellFrame
     int node = 0;                // tile index of the lower corner
 };
 
-inline CellFrame cell_frame(const grid::Levels& levels, const grid::Leaf& leaf, int cell)
+/// What the cells of one leaf share; made once per leaf, because its divisions would start every cell's chain.
+struct LeafFrame
+{
+    Index3 lower = Index3::Zero(); // 1, index of the leaf's lower corner
+    Vec3 origin = Vec3::Zero();    // mm, of the lattice
+    Real per_spacing = 1;          // 1/mm
+};
+
+inline LeafFrame leaf_frame(const grid::Levels& levels, std::size_t leaf)
+{
+    return {levels.leaves[leaf].origin, levels.origin, Real(1) / levels.spacing(levels.leaves[leaf].level)};
+}
+
+inline CellFrame cell_frame(const LeafFrame& leaf, int cell)
 {
     const int i = cell >> 6, j = cell >> 3 & 7, k = cell & 7;
-    CellFrame frame;
-    frame.lower = {Real(leaf.origin[0] + i), Real(leaf.origin[1] + j), Real(leaf.origin[2] + k)};
-    frame.origin = levels.origin;
-    frame.per_spacing = Real(1) / levels.spacing(leaf.level);
-    frame.node = grid::tile_index(i, j, k);
-    return frame;
+    return {{Real(leaf.lower[0] + i), Real(leaf.lower[1] + j), Real(leaf.lower[2] + k)},
+            leaf.origin,
+            leaf.per_spacing,
+            grid::tile_index(i, j, k)};
 }
 
 template <std::size_t N>

@@ -70,17 +70,18 @@ void remap_momentum(const PassOptions& options, const Strays& strays, particles:
             grid::NodeSum* tile = levels.sums(n);
             for (int i = 0; i < grid::tile_nodes; ++i) tile[i].momentum = {};
             const std::uint32_t* start = levels.cell_start.data() + n * grid::leaf_cells;
+            const LeafFrame frame = leaf_frame(levels, n);
             for (int c = 0; c < grid::leaf_cells; ++c)
                 if (start[c] != start[c + 1])
-                    remap_cell<F, T>(options, cell_frame(levels, levels.leaves[n], c), Visitors::residents,
-                                     levels.motions(n), start[c], start[c + 1], particles, tile);
+                    remap_cell<F, T>(options, cell_frame(frame, c), Visitors::residents, levels.motions(n), start[c],
+                                     start[c + 1], particles, tile);
         });
         if (strays.size() == 0) return;
         core::parallel_for(strays.run.size() - 1, [&](std::size_t r) {
             for (std::uint32_t s = strays.run[r]; s < strays.run[r + 1]; ++s) {
                 const auto leaf = static_cast<std::size_t>(strays.leaf[s]);
                 const std::uint32_t p = strays.particle[s];
-                remap_cell<F, T>(options, cell_frame(levels, levels.leaves[leaf], strays.cell[s]), Visitors::stray,
+                remap_cell<F, T>(options, cell_frame(leaf_frame(levels, leaf), strays.cell[s]), Visitors::stray,
                                  levels.motions(leaf), p, p + 1, particles, levels.sums(leaf));
             }
         });

@@ -13,11 +13,12 @@ void scatter_leaf(const PassOptions& options, const LawTable& laws, const partic
     grid::NodeSum* tile = levels.sums(leaf);
     std::fill(tile, tile + grid::tile_nodes, grid::NodeSum{});
     const std::uint32_t* start = levels.cell_start.data() + leaf * grid::leaf_cells;
+    const LeafFrame frame = leaf_frame(levels, leaf);
     with_scheme(options, [&]<Formulation F, Transfer T>() {
         for (int c = 0; c < grid::leaf_cells; ++c)
             if (start[c] != start[c + 1])
-                scatter_cell<F, T>(cell_frame(levels, levels.leaves[leaf], c), Visitors::residents, laws, particles,
-                                   start[c], start[c + 1], tile);
+                scatter_cell<F, T>(cell_frame(frame, c), Visitors::residents, laws, particles, start[c], start[c + 1],
+                                   tile);
     });
 }
 
@@ -30,7 +31,7 @@ void scatter_strays(const PassOptions& options, const LawTable& laws, const Stra
             for (std::uint32_t s = strays.run[r]; s < strays.run[r + 1]; ++s) {
                 const auto leaf = static_cast<std::size_t>(strays.leaf[s]);
                 const std::uint32_t p = strays.particle[s];
-                scatter_cell<F, T>(cell_frame(levels, levels.leaves[leaf], strays.cell[s]), Visitors::stray, laws,
+                scatter_cell<F, T>(cell_frame(leaf_frame(levels, leaf), strays.cell[s]), Visitors::stray, laws,
                                    particles, p, p + 1, levels.sums(leaf));
             }
         });
