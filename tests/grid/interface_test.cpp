@@ -57,7 +57,8 @@ TEST(Interface, slaves_are_the_fine_corners_that_touch_a_coarser_cell)
     }
 }
 
-TEST(Interface, rows_reproduce_constants_and_positions_from_masters_that_exist)
+// A master is never a slave itself: strong balance keeps a layer of cells between two interfaces.
+TEST(Interface, rows_reproduce_constants_and_positions_from_free_masters_that_exist)
 {
     for (const support::Topology& topology : support::topologies()) {
         const grid::Levels levels = support::levels_of(topology);
@@ -67,6 +68,10 @@ TEST(Interface, rows_reproduce_constants_and_positions_from_masters_that_exist)
             for (int e = face.row_start[s]; e < face.row_start[s + 1]; ++e) {
                 const auto entry = static_cast<std::size_t>(e);
                 ASSERT_GE(face.row_master[entry].leaf, 0) << topology;
+                EXPECT_EQ(levels.constrained[static_cast<std::size_t>(face.row_master[entry].leaf) * grid::tile_nodes +
+                                             static_cast<std::size_t>(face.row_master[entry].node)],
+                          0)
+                    << topology;
                 weights += face.row_weight[entry];
                 position += face.row_weight[entry] * support::position_of(levels, face.row_master[entry]);
             }
@@ -86,7 +91,7 @@ TEST(Interface, every_kind_of_row_occurs)
     EXPECT_EQ(lengths, (std::set<int>{1, 2, 4}));
 }
 
-// methods.md A.4, 8: <P^T f, v> = <f, P v>, the masters of one interface being slaves of the next.
+// methods.md A.4, 8: <P^T f, v> = <f, P v>.
 TEST(Interface, restriction_is_the_transpose_of_prolongation)
 {
     for (const support::Topology& topology : support::topologies()) {

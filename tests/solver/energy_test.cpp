@@ -143,7 +143,8 @@ TEST(StableTimeStep, is_the_wave_transit_of_the_finest_cell_and_shrinks_with_com
     compress(0, 0.5);
     EXPECT_NEAR(solver::stable_time_step(run.problem, run.prepared, run.state), 0.5 * transit, 1e-15);
     compress(1, 0.5);
-    EXPECT_NEAR(solver::stable_time_step(run.problem, run.prepared, run.state), 0.8 * 0.5 * transit, 1e-15);
+    EXPECT_NEAR(solver::stable_time_step(run.problem, run.prepared, run.state),
+                solver::deformed_step_share * 0.5 * transit, 1e-15);
     compress(1, -0.1);
     EXPECT_THROW((void)solver::stable_time_step(run.problem, run.prepared, run.state), core::NumericalError);
 }
@@ -156,7 +157,7 @@ TEST(StableTimeStep, shrinks_with_speed_in_the_updated_formulation)
     problem.bodies[0].velocity = {0, 1000, 0};
     Job run = support::started(problem);
     EXPECT_NEAR(solver::stable_time_step(run.problem, run.prepared, run.state),
-                0.8 * 0.5 / (run.prepared.wave_speed + 1000), 1e-15);
+                solver::deformed_step_share * 0.5 / (run.prepared.wave_speed + 1000), 1e-15);
 }
 
 TEST(StableTimeStep, names_the_particle_that_is_not_finite)

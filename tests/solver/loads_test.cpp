@@ -182,6 +182,14 @@ TEST(Loads, a_load_that_misses_the_body_is_an_input_error)
               "load 'top' holds no node with mass: its region misses the body or is smaller than a cell");
 }
 
+// The end face y = 4 mm is a plane of nodes that the next leaf owns, and no particle of that leaf gives them mass.
+TEST(Loads, the_end_face_of_a_body_may_be_held_where_a_leaf_ends)
+{
+    solver::Problem problem = support::bar(support::metal(), 1, 0);
+    problem.loads[0].region = support::beyond(1, 4, 1);
+    EXPECT_EQ(complaint(problem), "");
+}
+
 TEST(Loads, a_body_without_particles_is_an_input_error)
 {
     solver::Problem problem = support::bar(support::metal(), 1, 0);

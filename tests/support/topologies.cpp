@@ -62,7 +62,9 @@ const std::vector<Topology>& topologies()
         topology_of("flat face", 2, 2, [](const auto& key) { return key.cell[0] < 0; }),
         topology_of("box zone", 2, 3, [](const auto& key) { return within(key, 1); }),
         topology_of("re-entrant zone", 2, 2, [](const auto& key) { return key.cell.minCoeff() < 0; }),
-        topology_of("three nested levels", 3, 4, [](const auto& key) { return key.level == 1 && within(key, 1); }),
+        topology_of(
+            "three nested levels", 3, 4,
+            [](const auto& key) { return key.level == 1 && key.cell.minCoeff() >= 0 && key.cell.maxCoeff() < 3; }),
         topology_of("all refined", 2, 2, [](const auto&) { return true; }),
     };
     return all;
