@@ -11,7 +11,7 @@ namespace app
 {
 /// Speed per thread assumed where nothing was measured, and memory per particle, both of total-Lagrangian trilinear
 /// runs in double precision; `cleave bench` measures the first on the machine at hand.
-inline constexpr Real assumed_steps_per_s = 10e6; // particle-steps/s of one thread
+inline constexpr Real assumed_steps_per_s = 20e6; // particle-steps/s of one thread
 inline constexpr Real bytes_per_particle = 300;   // byte, columns and sorting buffers
 inline constexpr Real bytes_per_leaf = 120e3;     // byte, tile of 9^3 nodes with sums and motion, and tables
 

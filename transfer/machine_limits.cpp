@@ -1,10 +1,10 @@
 #include "transfer/machine_limits.h"
 
-#include "core/parallel.h"
 #include "core/simd.h"
 
 #include <algorithm>
 #include <chrono>
+#include <thread>
 #include <vector>
 
 namespace transfer
@@ -13,13 +13,17 @@ namespace
 {
 using Lanes = core::Pack<Real, core::native_lanes<Real>>;
 
+/// Least time of several trials of `work(part)` on one thread per part. Plain threads: a task scheduler may give two
+/// short parts to the same one.
 template <class Work>
-double best_seconds(int trials, const Work& work)
+double best_seconds(int trials, std::size_t parts, const Work& work)
 {
     double best = 1e30;
     for (int t = 0; t < trials; ++t) {
         const auto start = std::chrono::steady_clock::now();
-        work();
+        std::vector<std::thread> threads;
+        for (std::size_t part = 0; part < parts; ++part) threads.emplace_back([&work, part] { work(part); });
+        for (std::thread& thread : threads) thread.join();
         best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     }
     return best;
@@ -56,19 +60,16 @@ MachineLimits measure_limits(int threads)
 
     constexpr std::size_t length = 8'000'000;
     std::vector<Real> a(length, 1), b(length, 2), c(length, 3);
-    const double triad = best_seconds(5, [&] {
-        core::parallel_for(parts, [&](std::size_t part) {
-            const std::size_t begin = length / parts * part;
-            const std::size_t end = part + 1 == parts ? length : length / parts * (part + 1);
-            for (std::size_t i = begin; i < end; ++i) a[i] = b[i] + Real(0.5) * c[i];
-        });
+    const double triad = best_seconds(6, parts, [&](std::size_t part) {
+        const std::size_t begin = length / parts * part;
+        const std::size_t end = part + 1 == parts ? length : length / parts * (part + 1);
+        for (std::size_t i = begin; i < end; ++i) a[i] = b[i] + Real(0.5) * c[i];
     });
     limits.triad_bytes_per_s = 3 * sizeof(Real) * static_cast<Real>(length) / triad;
 
     constexpr long rounds = 4'000'000;
     std::vector<Real> sink(parts * 64);
-    const double fma = best_seconds(
-        4, [&] { core::parallel_for(parts, [&](std::size_t part) { sink[part * 64] = spin(rounds, a[part]); }); });
+    const double fma = best_seconds(6, parts, [&](std::size_t part) { sink[part * 64] = spin(rounds, a[part]); });
     limits.fma_flops_per_s =
         Real(2) * chains * Lanes::lanes * static_cast<Real>(rounds) * static_cast<Real>(parts) / fma;
     return limits;

@@ -33,7 +33,7 @@ support::Topology random_topology(std::uint64_t seed)
 
 TEST(Refinement, neighbouring_leaf_cells_differ_by_at_most_one_level)
 {
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const support::Topology topology = random_topology(seed);
         int deepest = 0;
         for (const CellKey& key : topology.cells) {
