@@ -1,6 +1,9 @@
 #include "solver/loads.h"
 
+#include "core/error.h"
+
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -142,10 +145,12 @@ void apply_loads(const Problem& problem, const Prepared& prepared, const std::ve
         if (load.kind == Load::Kind::pin)
             state.spin = new_spin(problem, prepared, load, state, nodes[i], time, dt, levels);
         Vec3 impulse = Vec3::Zero();
+        Real held_mass = 0;
         for (std::size_t n = 0; n < nodes[i].node.size(); ++n) {
             const NodeAddress at = nodes[i].node[n];
             const grid::NodeSum& sum = levels.sums(static_cast<std::size_t>(at.leaf))[at.node];
             if (sum.mass <= 0) continue;
+            held_mass += sum.mass;
             grid::NodeMotion& motion = levels.motions(static_cast<std::size_t>(at.leaf))[at.node];
             Vec3 old = before;
             Vec3 fresh = after;
@@ -163,6 +168,12 @@ void apply_loads(const Problem& problem, const Prepared& prepared, const std::ve
                 impulse[a] += given[a];
             }
         }
+        if (held_mass <= 0)
+            throw core::NumericalError(
+                fmt::format("load '{}' has lost the body at t = {:.6g} ms: no node with mass is left in "
+                            "its region. In the updated formulation a region must reach into the "
+                            "body by more than a cell.",
+                            load.name, time));
         state.reaction = impulse / dt;
         state.impulse += impulse;
         state.impulse_time += dt;

@@ -39,6 +39,7 @@ bool load_nodes_outdated(const Problem& problem, const std::vector<LoadState>& l
 /// reaction, impulse and external work. A pin's spin follows its angular-momentum balance
 ///   omega+ = sum r x (m v_old + dt f) / sum m r^2.
 /// @param time  ms, beginning of the step
+/// @error core::NumericalError if a load has lost the body: none of its nodes has mass
 void apply_loads(const Problem& problem, const Prepared& prepared, const std::vector<LoadNodes>& nodes, Real time,
                  Real dt, grid::Levels& levels, std::vector<LoadState>& loads);
 

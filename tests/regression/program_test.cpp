@@ -147,7 +147,7 @@ TEST_F(Program, a_run_in_three_parts_leaves_the_files_of_one)
     int compared = 0;
     for (const std::string& file : test::files_below(below("one"))) {
         if (file.rfind("particles/", 0) != 0) continue;
-        EXPECT_EQ(test::contents(below("one") / file), test::contents(below("parts") / file)) << file;
+        EXPECT_TRUE(test::contents(below("one") / file) == test::contents(below("parts") / file)) << file;
         ++compared;
     }
     EXPECT_GE(compared, 3);

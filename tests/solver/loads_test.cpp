@@ -190,6 +190,22 @@ TEST(Loads, the_end_face_of_a_body_may_be_held_where_a_leaf_ends)
     EXPECT_EQ(complaint(problem), "");
 }
 
+// Only the plane of the end face is held: it moves off its nodes at once, and without this the force would just vanish.
+TEST(Loads, a_load_that_loses_the_body_stops_the_run)
+{
+    solver::Problem problem = support::bar(support::metal(), 1, 0);
+    problem.numerics = support::numerics(solver::Formulation::updated);
+    problem.loads[0] = support::load("top", support::beyond(1, 4, 1), {std::nullopt, Real(40), std::nullopt}, 0);
+    Job run = support::started(problem);
+    try {
+        support::advance(400, run);
+        FAIL() << "still running at t = " << run.state.clock.time << " ms";
+    } catch (const core::NumericalError& error) {
+        EXPECT_NE(std::string(error.what()).find("load 'top' has lost the body at t ="), std::string::npos)
+            << error.what();
+    }
+}
+
 TEST(Loads, a_body_without_particles_is_an_input_error)
 {
     solver::Problem problem = support::bar(support::metal(), 1, 0);
