@@ -46,10 +46,13 @@ void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
         stored = io::resume(files.directory / "checkpoint", files.of_case,
                             [&](const std::string& text) { log.line("warning: " + text); });
     if (!stored) {
-        if (options.resume && std::filesystem::exists(files.directory / "history.csv"))
-            throw core::InputError(fmt::format("{} holds a run but no checkpoint: nothing to resume from. --force "
-                                               "replaces it.",
-                                               files.directory.string()));
+        // A run that was killed before its first checkpoint starts again, so that a job script can always say --resume.
+        const auto record = files.directory / "run.json";
+        if (options.resume && std::filesystem::exists(record) && io::read_run_record(record).status == "done")
+            throw core::InputError(
+                fmt::format("{} holds a finished run without a checkpoint: nothing to resume. --force "
+                            "replaces it.",
+                            files.directory.string()));
         run.state = solver::initialise(run.problem, run.prepared, run.derived);
         files.history = std::make_unique<io::HistoryFile>(files.directory / "history.csv", run.problem.grid.levels);
         files.record.particles_start = solver::particles_per_level(run.state);
