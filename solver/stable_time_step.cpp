@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/tensor.h"
+#include "transfer/cell_squeeze.h"
 
 #include <fmt/format.h>
 
@@ -34,13 +35,9 @@ Real signal_speed(const Prepared& prepared, const State& state, std::size_t p)
     if (crack >= 0 && particles.cracks[static_cast<std::size_t>(crack)].damage >= 1) return prepared.wave_speed;
     core::Mat<Real> f{};
     for (std::size_t n = 0; n < 9; ++n) f.m[n] = particles.deformation_gradient[n][p];
-    const core::Mat<Real> cof = core::cofactor(f);
-    const Real jacobian = core::determinant(f);
-    if (!(jacobian > 0)) not_finite(state, p);
-    Real longest = 0;
-    for (int a = 0; a < 3; ++a)
-        longest = std::max(longest, cof(0, a) * cof(0, a) + cof(1, a) * cof(1, a) + cof(2, a) * cof(2, a));
-    return prepared.wave_speed * std::max(Real(1), std::sqrt(longest) / jacobian);
+    const Real squeeze = transfer::cell_squeeze(f);
+    if (!std::isfinite(squeeze)) not_finite(state, p);
+    return prepared.wave_speed * std::max(Real(1), squeeze);
 }
 } // namespace
 
@@ -57,7 +54,7 @@ Real stable_time_step(const Problem& problem, const Prepared& prepared, const St
     Real dt = problem.numerics.cfl * finest / prepared.wave_speed;
     for (std::size_t n = 0; n < fastest.size(); ++n)
         if (fastest[n] > 0)
-            dt = std::min(dt, deformed_step_share * levels.spacing(levels.leaves[n].level) / fastest[n]);
+            dt = std::min(dt, transfer::deformed_step_share * levels.spacing(levels.leaves[n].level) / fastest[n]);
     return dt;
 }
 } // namespace solver

@@ -9,13 +9,7 @@ namespace solver
 /// Steps between two estimates; the step is constant in between.
 inline constexpr int time_step_interval = 32;
 
-/// Share of (deformed cell width / wave speed) that the step may not exceed. A cell at a cut edge may hold one particle
-/// alone, a quarter of a cell from its nodes: omega^2 = 3 K / (rho h^2) (1/xi + 1/(1 - xi)) = 9.9 c_d^2 / h^2 at xi =
-/// 1/4 and nu = 0.3, so dt < 2 / omega = 0.635 h / c_d; a full cell allows 0.734 (methods.md A.6). Seen: 0.7 is
-/// unstable there.
-inline constexpr Real deformed_step_share = 0.63;
-
-/// dt = min( cfl h_f / c_d,  deformed_step_share h_l / (c_d s + |v|) ).
+/// dt = min( cfl h_f / c_d,  transfer::deformed_step_share h_l / (c_d s + |v|) ).
 ///
 /// s is the largest compression of a cell of the level: total formulation max |F^{-T} e_a| over axes and particles that
 /// still transmit force (damage < 1), and |v| = 0; updated formulation s = 1 and |v| the largest particle speed.

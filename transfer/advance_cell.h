@@ -158,8 +158,8 @@ template <Formulation F, Transfer T, StressUpdate S>
 }
 
 /// Stage two: stress, plastic strain, decohesion.
-[[gnu::always_inline]] inline void update_stress(const PassOptions& options, const LawTable& laws, Kinematics& k,
-                                                 Real mean_dilatation, std::size_t begin, int count,
+[[gnu::always_inline]] inline void update_stress(const PassOptions& options, const LawTable& laws, Real per_spacing,
+                                                 Kinematics& k, Real mean_dilatation, std::size_t begin, int count,
                                                  particles::Particles& particles, LeafOutcome& outcome)
 {
     const auto old = load_all<core::Sym<Lanes>>(particles.stress, begin, count);
@@ -182,7 +182,8 @@ template <Formulation F, Transfer T, StressUpdate S>
         return;
     }
     if (!particles.cracks.empty()) {
-        const SeparationInput input{options, laws, begin, count, k.here, strain, rotation, old, old_strain, k.volume};
+        const SeparationInput input{options, laws,     per_spacing, begin,      count,   k.here,
+                                    strain,  rotation, old,         old_strain, k.volume};
         outcome.work.decohesion += separate_lanes(input, particles, plastic_work);
     }
     outcome.work.plastic += core::sum(plastic_work);
@@ -229,9 +230,10 @@ void advance_cell(const PassOptions& options, const LawTable& laws, const CellFr
         c = 0;
         for (std::size_t p = first; p < last; p += Lanes::lanes, ++c) {
             const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
-            count == Lanes::lanes
-                ? detail::update_stress(options, laws, k[c], mean_dilatation, p, Lanes::lanes, particles, outcome)
-                : detail::update_stress(options, laws, k[c], mean_dilatation, p, count, particles, outcome);
+            count == Lanes::lanes ? detail::update_stress(options, laws, frame.per_spacing, k[c], mean_dilatation, p,
+                                                          Lanes::lanes, particles, outcome)
+                                  : detail::update_stress(options, laws, frame.per_spacing, k[c], mean_dilatation, p,
+                                                          count, particles, outcome);
             near_onset = near_onset || (laws.any_decohesion && core::any(k[c].may_start));
         }
         if (near_onset) {

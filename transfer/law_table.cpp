@@ -9,6 +9,7 @@ LawTable law_table(const std::vector<material::Material>& materials)
     for (const material::Material& m : materials) {
         LawConstants c;
         c.lame = m.elastic.lame();
+        c.wave_speed = m.elastic.wave_speed();
         c.shear = m.elastic.shear_modulus();
         if (m.plastic) {
             c.yield = m.plastic->yield_stress;

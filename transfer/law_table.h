@@ -16,6 +16,7 @@ inline constexpr Real no_yield = 1e30;
 struct LawConstants
 {
     Real lame = 0;                                              // MPa
+    Real wave_speed = 0;                                        // mm/ms, c_d
     Real shear = 0;                                             // MPa
     Real yield = no_yield;                                      // MPa
     Real hardening = 0;                                         // MPa, plastic modulus H

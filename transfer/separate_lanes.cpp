@@ -1,9 +1,7 @@
 #include "transfer/separate_lanes.h"
 
 #include "material/decohesion.h"
-
-#include <algorithm>
-#include <cmath>
+#include "transfer/cell_squeeze.h"
 
 namespace transfer
 {
@@ -41,16 +39,19 @@ core::Sym<Real> cell_mean(const particles::Particles& particles, std::size_t beg
     return (1 / volume) * mean;
 }
 
-/// A separated particle resists nothing but compression, so its deformation gradient may collapse or turn inside out
-/// while the faces slide; the strain of such a step means nothing.
-bool tangled(const core::Crack& crack, const core::Sym<Real>& strain, Real volume_ratio)
+/// A separated particle resists nothing but compression, so its cell may collapse or turn inside out while the faces
+/// slide. Its motion then means nothing, and its stiffness would be unstable: other particles shorten the time step
+/// (solver/stable_time_step.h), these do not.
+bool tangled(const SeparationInput& input, const particles::Particles& particles, std::size_t p, Real volume_ratio)
 {
     constexpr Real smallest_ratio = 0.05;
-    constexpr Real largest_strain = 0.05; // in one step; a sound wave makes 1e-3
-    if (crack.damage < 1) return false;
-    Real largest = 0;
-    for (const Real e : strain.s) largest = std::max(largest, std::abs(e));
-    return volume_ratio < smallest_ratio || !(largest < largest_strain);
+    if (particles.cracks[static_cast<std::size_t>(particles.crack[p])].damage < 1) return false;
+    if (!(volume_ratio > smallest_ratio)) return true;
+    if (particles.deformation_gradient[0].empty()) return false;
+    core::Mat<Real> f{};
+    for (std::size_t n = 0; n < 9; ++n) f.m[n] = particles.deformation_gradient[n][p];
+    const Real wave_speed = input.laws.constants[particles.material[p]].wave_speed;
+    return wave_speed * cell_squeeze(f) * input.options.dt * input.per_spacing > unstable_step_share;
 }
 
 /// Normal of a crack that already runs through the cell; zero if none.
@@ -75,7 +76,7 @@ Real separate_lanes(const SeparationInput& input, particles::Particles& particle
                                           input.eq_plastic_strain[i],
                                           input.options.dt,
                                           input.options.time};
-        if (tangled(crack, strain.strain, input.volume[i] / particles.rest_volume[p])) {
+        if (tangled(input, particles, p, input.volume[i] / particles.rest_volume[p])) {
             for (particles::Column& component : particles.stress) component[p] = 0;
             particles.eq_plastic_strain[p] = strain.eq_plastic_strain;
             plastic_work.v[i] = 0;

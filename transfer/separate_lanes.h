@@ -20,6 +20,7 @@ struct SeparationInput
 {
     const PassOptions& options;
     const LawTable& laws;
+    Real per_spacing; // 1/mm, of the cell
     std::size_t begin;
     int count;
     LaneMask here;
@@ -31,7 +32,8 @@ struct SeparationInput
 };
 
 /// Replace stress, plastic strain and plastic work of every lane with a crack by those of material::separate.
-/// A separated particle whose cell has been turned inside out carries no stress and dissipates nothing.
+/// A separated particle whose cell is turned inside out, or squeezed beyond what the time step can follow, carries no
+/// stress and dissipates nothing (docs/decisions/007).
 /// @param particles        writes stress, eq_plastic_strain, cracks
 /// @param plastic_work     mJ, lanes with a crack are replaced
 /// @return decohesion work of the chunk [mJ]

@@ -5,6 +5,7 @@
 #include "solver/observe.h"
 #include "solver/stable_time_step.h"
 #include "tests/support/runs.h"
+#include "transfer/cell_squeeze.h"
 
 #include <gtest/gtest.h>
 
@@ -144,7 +145,7 @@ TEST(StableTimeStep, is_the_wave_transit_of_the_finest_cell_and_shrinks_with_com
     EXPECT_NEAR(solver::stable_time_step(run.problem, run.prepared, run.state), 0.5 * transit, 1e-15);
     compress(1, 0.5);
     EXPECT_NEAR(solver::stable_time_step(run.problem, run.prepared, run.state),
-                solver::deformed_step_share * 0.5 * transit, 1e-15);
+                transfer::deformed_step_share * 0.5 * transit, 1e-15);
     compress(1, -0.1);
     EXPECT_THROW((void)solver::stable_time_step(run.problem, run.prepared, run.state), core::NumericalError);
 }
@@ -157,7 +158,7 @@ TEST(StableTimeStep, shrinks_with_speed_in_the_updated_formulation)
     problem.bodies[0].velocity = {0, 1000, 0};
     Job run = support::started(problem);
     EXPECT_NEAR(solver::stable_time_step(run.problem, run.prepared, run.state),
-                solver::deformed_step_share * 0.5 / (run.prepared.wave_speed + 1000), 1e-15);
+                transfer::deformed_step_share * 0.5 / (run.prepared.wave_speed + 1000), 1e-15);
 }
 
 TEST(StableTimeStep, names_the_particle_that_is_not_finite)
