@@ -1,6 +1,7 @@
-/// Particles as one struct of columns; the list `columns()` is the only place that names every field.
+/// Particles as one struct of columns; `for_each_real` and `for_each_integer` are the only places that name every
+/// field.
 ///
-/// Resize, ordering, splitting, output and restart walk that list, so a new field is two lines. The order of particles
+/// Resize, ordering, splitting, output and restart walk them, so a new field is two lines. The order of particles
 /// is the order of their home cells (level, leaf, cell), see particles/order.h.
 #pragma once
 
