@@ -5,8 +5,6 @@
 
 #include "solver/problem.h"
 
-#include <string>
-
 namespace app
 {
 struct BenchCase

@@ -1,8 +1,8 @@
 #include "solver/audit.h"
 
 #include "core/parallel.h"
-#include "core/tensor.h"
 #include "material/elastic.h"
+#include "particles/tensors.h"
 #include "transfer/solid_share.h"
 
 namespace solver
@@ -13,9 +13,7 @@ Real volume(const particles::Particles& particles, Formulation formulation, std:
 {
     Real v = particles.rest_volume[p];
     if (formulation == Formulation::total) {
-        core::Mat<Real> f{};
-        for (std::size_t n = 0; n < 9; ++n) f.m[n] = particles.deformation_gradient[n][p];
-        v *= core::determinant(f);
+        v *= core::determinant(particles::deformation_of(particles, p));
     } else {
         v *= particles.volume_ratio[p];
     }
@@ -34,14 +32,13 @@ Ledger audit(const Prepared& prepared, const State& state)
              p < levels.cell_start[(n + 1) * grid::leaf_cells]; ++p) {
             Real speed2 = 0;
             for (const particles::Column& v : particles.velocity) speed2 += v[p] * v[p];
-            core::Sym<Real> stress{};
-            for (std::size_t c = 0; c < 6; ++c) stress.s[c] = particles.stress[c][p];
             leaf[n].kinetic += particles.mass[p] * speed2 / 2;
             for (std::size_t a = 0; a < 3; ++a)
                 leaf[n].external += particles.mass[p] * prepared.gravity[static_cast<int>(a)] *
                                     (particles.position[a][p] - particles.rest_position[a][p]);
             leaf[n].elastic += volume(particles, prepared.options.formulation, p) *
-                               material::elastic_energy(prepared.laws.materials[particles.material[p]].elastic, stress);
+                               material::elastic_energy(prepared.laws.materials[particles.material[p]].elastic,
+                                                        particles::stress_of(particles, p));
         }
     });
     Ledger total;

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/tensor.h"
+#include "particles/tensors.h"
 #include "transfer/cell_squeeze.h"
 
 #include <fmt/format.h>
@@ -33,9 +33,7 @@ Real signal_speed(const Prepared& prepared, const State& state, std::size_t p)
     if (prepared.options.formulation == Formulation::updated) return prepared.wave_speed + speed;
     const std::int32_t crack = particles.crack[p];
     if (crack >= 0 && particles.cracks[static_cast<std::size_t>(crack)].damage >= 1) return prepared.wave_speed;
-    core::Mat<Real> f{};
-    for (std::size_t n = 0; n < 9; ++n) f.m[n] = particles.deformation_gradient[n][p];
-    const Real squeeze = transfer::cell_squeeze(f);
+    const Real squeeze = transfer::cell_squeeze(particles::deformation_of(particles, p));
     if (!std::isfinite(squeeze)) not_finite(state, p);
     return prepared.wave_speed * std::max(Real(1), squeeze);
 }

@@ -79,11 +79,12 @@ void advance_and_scatter(const PassOptions& options, const LawTable& laws, Stray
         leaf_work[n].decohesion += outcome[n].work.decohesion;
     }
     record_onsets(outcome, particles);
-    // A cracked particle leaves its cell's mean pressure: its leaf's sums, made while it was intact, are out of date.
-    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
-        if (!outcome[n].onset.empty()) scatter_leaf(options, laws, particles, n, levels);
-    });
     if (options.formulation == Formulation::updated) {
+        // A cracked particle leaves its cell's mean pressure: its leaf's sums, made while it was intact, are out of
+        // date.
+        core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+            if (!outcome[n].onset.empty()) scatter_leaf(options, laws, particles, n, levels);
+        });
         assign(all_away(outcome, strays), particles, levels, strays);
         scatter_strays(options, laws, strays, particles, levels);
     }

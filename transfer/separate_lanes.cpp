@@ -1,6 +1,7 @@
 #include "transfer/separate_lanes.h"
 
 #include "material/decohesion.h"
+#include "particles/tensors.h"
 #include "transfer/cell_squeeze.h"
 
 namespace transfer
@@ -19,13 +20,6 @@ Tensor lane_of(const LaneTensor& lanes, int lane)
     return t;
 }
 
-core::Sym<Real> stress_of(const particles::Particles& particles, std::size_t p)
-{
-    core::Sym<Real> s{};
-    for (std::size_t n = 0; n < 6; ++n) s.s[n] = particles.stress[n][p];
-    return s;
-}
-
 /// Mean stress tensor of the intact particles, weighted by rest volume.
 core::Sym<Real> cell_mean(const particles::Particles& particles, std::size_t begin, std::size_t end)
 {
@@ -33,7 +27,7 @@ core::Sym<Real> cell_mean(const particles::Particles& particles, std::size_t beg
     Real volume = 0;
     for (std::size_t p = begin; p < end; ++p) {
         if (particles.crack[p] >= 0) continue;
-        mean = mean + particles.rest_volume[p] * stress_of(particles, p);
+        mean = mean + particles.rest_volume[p] * particles::stress_of(particles, p);
         volume += particles.rest_volume[p];
     }
     return (1 / volume) * mean;
@@ -48,10 +42,9 @@ bool tangled(const SeparationInput& input, const particles::Particles& particles
     if (particles.cracks[static_cast<std::size_t>(particles.crack[p])].damage < 1) return false;
     if (!(volume_ratio > smallest_ratio)) return true;
     if (particles.deformation_gradient[0].empty()) return false;
-    core::Mat<Real> f{};
-    for (std::size_t n = 0; n < 9; ++n) f.m[n] = particles.deformation_gradient[n][p];
     const Real wave_speed = input.laws.constants[particles.material[p]].wave_speed;
-    return wave_speed * cell_squeeze(f) * input.options.dt * input.per_spacing > unstable_step_share;
+    return wave_speed * cell_squeeze(particles::deformation_of(particles, p)) * input.options.dt * input.per_spacing >
+           unstable_step_share;
 }
 
 /// Normal of a crack that already runs through the cell; zero if none.
@@ -102,7 +95,7 @@ void start_cracks(const PassOptions& options, const LawTable& laws, const partic
     for (std::size_t p = begin; p < end; ++p) {
         const material::Material& material = laws.materials[particles.material[p]];
         if (particles.crack[p] >= 0 || !material.decohesion) continue;
-        const core::Sym<Real> own = stress_of(particles, p);
+        const core::Sym<Real> own = particles::stress_of(particles, p);
         const core::Sym<Real> test = material.decohesion->smoothed_onset ? cell_mean(particles, begin, end) : own;
         material::Bias bias{gradients[p - begin], nearest_normal(particles, begin, end)};
         for (Real& entry : bias.velocity_gradient.m) entry *= per_dt;
