@@ -2,6 +2,7 @@
 
 #include "core/contract.h"
 #include "core/parallel.h"
+#include "grid/hanging.h"
 #include "grid/topology.h"
 
 #include <algorithm>
@@ -12,11 +13,7 @@ namespace
 {
 bool active(const Levels& levels, int level, const Index3& cell)
 {
-    const std::int32_t leaf = leaf_of(levels, level, cell);
-    if (leaf < 0) return false;
-    const Index3 local = cell - levels.leaves[static_cast<std::size_t>(leaf)].origin;
-    return levels.cell_active[static_cast<std::size_t>(leaf) * leaf_cells +
-                              static_cast<std::size_t>(cell_index(local[0], local[1], local[2]))] != 0;
+    return active_slot(levels, level, cell) >= 0;
 }
 
 Index3 parent(const Index3& cell)
@@ -50,6 +47,7 @@ void append_row(const Levels& levels, int coarse_level, const Index3& node, Leve
 {
     for (int c = 0; c < 8; ++c) {
         Index3 master;
+        MasterOffset offset{};
         Real weight = 1;
         bool counts = true;
         for (int a = 0; a < 3; ++a) {
@@ -57,11 +55,17 @@ void append_row(const Levels& levels, int coarse_level, const Index3& node, Leve
             const bool odd = (node[a] & 1) != 0;
             master[a] = (node[a] >> 1) + (odd ? upper : 0);
             if (odd) weight *= Real(0.5);
+            offset[static_cast<std::size_t>(a)] = static_cast<std::int8_t>(2 * master[a] - node[a]);
             counts = counts && (odd || upper == 0);
         }
         if (!counts) continue;
-        face.row_master.push_back(address_of(levels, coarse_level, master));
+        const NodeAddress at = address_of(levels, coarse_level, master);
+        CLEAVE_ASSERTS(
+            levels.constrained[static_cast<std::size_t>(at.leaf) * tile_nodes + static_cast<std::size_t>(at.node)] ==
+            0);
+        face.row_master.push_back(at);
         face.row_weight.push_back(weight);
+        face.row_offset.push_back(offset);
     }
     face.row_start.push_back(static_cast<std::int32_t>(face.row_master.size()));
 }
@@ -88,6 +92,7 @@ void transpose(LevelInterface& face)
         }
         face.column_slave.push_back(entries[e].slave);
         face.column_weight.push_back(face.row_weight[static_cast<std::size_t>(entries[e].entry)]);
+        face.column_offset.push_back(face.row_offset[static_cast<std::size_t>(entries[e].entry)]);
     }
     face.column_start.push_back(static_cast<std::int32_t>(entries.size()));
 }
@@ -138,12 +143,13 @@ void build_interfaces(Levels& levels)
                         append_row(levels, l - 1, node, face);
                     }
         transpose(face);
+        find_hanging_cells(levels, l, face);
     }
 }
 
 void restrict_sums(Levels& levels)
 {
-    for (std::size_t l = levels.interface.size(); l-- > 0;)
+    for (std::size_t l = levels.interface.size(); l-- > 0;) {
         restrict_with(
             levels, levels.interface[l],
             [](NodeSum& master, Real w, const NodeSum& slave) {
@@ -154,17 +160,21 @@ void restrict_sums(Levels& levels)
                 }
             },
             [](NodeSum& slave) { slave = NodeSum{}; });
+        restrict_affine(l, levels);
+    }
 }
 
 void restrict_momentum(Levels& levels)
 {
-    for (std::size_t l = levels.interface.size(); l-- > 0;)
+    for (std::size_t l = levels.interface.size(); l-- > 0;) {
         restrict_with(
             levels, levels.interface[l],
             [](NodeSum& master, Real w, const NodeSum& slave) {
                 for (std::size_t a = 0; a < 3; ++a) master.momentum[a] += w * slave.momentum[a];
             },
             [](NodeSum& slave) { slave.momentum = {}; });
+        restrict_affine(l, levels);
+    }
 }
 
 void prolong_motion(Levels& levels)

@@ -15,7 +15,8 @@ namespace grid
 /// @pre   strong 2:1 balance
 void build_interfaces(Levels& levels);
 
-/// Add mass, momentum and force of slaves to their masters, finest level first, and clear the slaves: P^T.
+/// Add mass, momentum and force of slaves to their masters, finest level first, and clear the slaves: P^T. With APIC
+/// the masters also get what the affine matrices add between slave and master (grid/hanging.h).
 /// @pre  the halos of every level are assembled
 void restrict_sums(Levels& levels);
 

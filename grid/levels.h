@@ -51,6 +51,13 @@ struct alignas(64) NodeMotion
     Real spare1;
 };
 
+/// A node of the nodal scheme (grid/nodal.h), where momentum is never mapped: half a cache line.
+struct alignas(32) NodeForce
+{
+    std::array<Real, 3> force; // N
+    Real per_mass;             // 1/g, 0: never moves (no mass, or a slave)
+};
+
 struct Leaf
 {
     int level = 0;
@@ -65,18 +72,43 @@ struct NodeAddress
     std::int32_t node = -1;
 };
 
+/// Master minus slave, in spacings of the fine level: -1, 0 or 1 along each axis.
+using MasterOffset = std::array<std::int8_t, 3>;
+
+/// What the corners of one cell collect of the particles' affine matrices (APIC): sum m w_i C [g/ms], the nine entries
+/// of C row by row, for each the corners i = 4 x + 2 y + z.
+struct alignas(64) CornerAffine
+{
+    std::array<std::array<Real, 8>, 9> entry;
+};
+
+/// Leaf cells of a fine level with a hanging corner: a slave between its masters, not at the place of one. There the
+/// masters' positions matter, not only their weights (grid/hanging.h).
+struct HangingCells
+{
+    std::vector<std::size_t> slot;                   // [c] leaf * 512 + cell, ascending
+    std::vector<std::array<std::int32_t, 8>> slave;  // [c] slave at corner 4 x + 2 y + z, -1: does not hang
+    std::vector<std::array<std::int32_t, 8>> around; // [s] cell that has the slave as corner 4 x + 2 y + z, or -1
+    std::vector<CornerAffine> affine;                // [c] what particles scatter; empty unless APIC
+    std::vector<std::array<Real, 9>> slave_affine;   // [s] g/ms, sum of `affine` over the cells around
+};
+
 /// Constrained interface nodes of one fine level and their masters one level coarser (methods.md A.3.2): rows of P
-/// (slave -> masters, weights 1, 1/2, 1/4) and the same entries by master (P^T), both in compressed rows.
+/// (slave -> masters, weights 1, 1/2, 1/4) and the same entries by master (P^T), both in compressed rows. No master is
+/// a slave of the next coarser level: strong balance keeps a layer of cells in between.
 struct LevelInterface
 {
-    std::vector<NodeAddress> slave;         // [s]
-    std::vector<std::int32_t> row_start;    // [s + 1]
-    std::vector<NodeAddress> row_master;    // [entries]
-    std::vector<Real> row_weight;           // [entries] 1
-    std::vector<NodeAddress> master;        // [m]
-    std::vector<std::int32_t> column_start; // [m + 1]
-    std::vector<std::int32_t> column_slave; // [entries] index into slave
-    std::vector<Real> column_weight;        // [entries] 1
+    std::vector<NodeAddress> slave;          // [s]
+    std::vector<std::int32_t> row_start;     // [s + 1]
+    std::vector<NodeAddress> row_master;     // [entries]
+    std::vector<Real> row_weight;            // [entries] 1
+    std::vector<MasterOffset> row_offset;    // [entries]
+    std::vector<NodeAddress> master;         // [m]
+    std::vector<std::int32_t> column_start;  // [m + 1]
+    std::vector<std::int32_t> column_slave;  // [entries] index into slave
+    std::vector<Real> column_weight;         // [entries] 1
+    std::vector<MasterOffset> column_offset; // [entries]
+    HangingCells hanging;
 };
 
 /// The mask trees; defined where OpenVDB may be included.
@@ -94,6 +126,7 @@ struct Levels
     std::vector<std::uint32_t> cell_start; // [leaf * 512 + cell], + 1 entry: particle ranges by home cell
     std::vector<NodeSum> sum;              // [leaf][729]
     std::vector<NodeMotion> motion;        // [leaf][729]
+    std::vector<NodeForce> force;          // [leaf][729] nodal scheme, instead of `sum`
     std::vector<std::uint8_t> constrained; // [leaf][729] 1: owned node is a slave of the coarser level
     std::vector<LevelInterface> interface; // [count - 1] between level l and l + 1
 
@@ -102,6 +135,8 @@ struct Levels
     Real spacing(int level) const { return spacing0 / static_cast<Real>(1 << level); }
     NodeSum* sums(std::size_t leaf) { return sum.data() + leaf * tile_nodes; }
     const NodeSum* sums(std::size_t leaf) const { return sum.data() + leaf * tile_nodes; }
+    NodeForce* forces(std::size_t leaf) { return force.data() + leaf * tile_nodes; }
+    const NodeForce* forces(std::size_t leaf) const { return force.data() + leaf * tile_nodes; }
     NodeMotion* motions(std::size_t leaf) { return motion.data() + leaf * tile_nodes; }
     const NodeMotion* motions(std::size_t leaf) const { return motion.data() + leaf * tile_nodes; }
 };

@@ -74,6 +74,15 @@ std::int32_t leaf_of(const Levels& levels, int level, const Index3& node)
     return leaf == nullptr ? -1 : static_cast<std::int32_t>(leaf->transientData());
 }
 
+std::int64_t active_slot(const Levels& levels, int level, const Index3& cell)
+{
+    const std::int32_t leaf = leaf_of(levels, level, cell);
+    if (leaf < 0) return -1;
+    const Index3 local = cell - levels.leaves[static_cast<std::size_t>(leaf)].origin;
+    const std::int64_t slot = std::int64_t{leaf} * leaf_cells + cell_index(local[0], local[1], local[2]);
+    return levels.cell_active[static_cast<std::size_t>(slot)] != 0 ? slot : -1;
+}
+
 void build(const std::vector<CellKey>& occupied, Levels& levels)
 {
     auto topology = std::make_shared<Topology>();

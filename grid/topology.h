@@ -24,4 +24,7 @@ Refinement refinement_of_cells(const Levels& levels);
 
 /// Number of the leaf whose owned nodes (and cells) include `node` on `level`, or -1.
 std::int32_t leaf_of(const Levels& levels, int level, const Index3& node);
+
+/// leaf * 512 + cell of an active leaf cell, or -1 if the cell is not active.
+std::int64_t active_slot(const Levels& levels, int level, const Index3& cell);
 } // namespace grid

@@ -1,5 +1,6 @@
 #include "core/parallel.h"
 #include "transfer/advance_cell.h"
+#include "transfer/interface_affine.h"
 #include "transfer/passes.h"
 #include "transfer/scatter_leaf.h"
 
@@ -21,12 +22,14 @@ void advance_leaf(const PassOptions& options, const LawTable& laws, std::size_t 
 {
     const std::uint32_t* start = levels.cell_start.data() + leaf * grid::leaf_cells;
     const LeafFrame frame = leaf_frame(levels, leaf);
+    const std::vector<AffineChunk> affine = affine_of_residents(options, levels, leaf, particles);
     with_stress_update(options, [&]<Formulation F, Transfer T, StressUpdate S>() {
         for (int c = 0; c < grid::leaf_cells; ++c)
             if (start[c] != start[c + 1])
                 advance_cell<F, T, S>(options, laws, cell_frame(frame, c), Visitors::residents, levels.motions(leaf),
                                       start[c], start[c + 1], particles, outcome);
     });
+    store_affine(affine, particles);
 }
 
 void advance_strays(const PassOptions& options, const LawTable& laws, const Strays& strays, const grid::Levels& levels,
@@ -38,8 +41,10 @@ void advance_strays(const PassOptions& options, const LawTable& laws, const Stra
             for (std::uint32_t s = strays.run[r]; s < strays.run[r + 1]; ++s) {
                 const auto leaf = static_cast<std::size_t>(strays.leaf[s]);
                 const std::uint32_t p = strays.particle[s];
+                const std::vector<AffineChunk> affine = affine_of_stray(options, levels, strays, s, particles);
                 advance_cell<F, T, S>(options, laws, cell_frame(leaf_frame(levels, leaf), strays.cell[s]),
                                       Visitors::stray, levels.motions(leaf), p, p + 1, particles, outcome[leaf]);
+                store_affine(affine, particles);
             }
         });
     });
@@ -73,6 +78,7 @@ void advance_and_scatter(const PassOptions& options, const LawTable& laws, Stray
     core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
         advance_leaf(options, laws, n, levels, particles, outcome[n]);
         scatter_leaf(options, laws, particles, n, levels);
+        scatter_affine(options, particles, n, levels);
     });
     for (std::size_t n = 0; n < outcome.size(); ++n) {
         leaf_work[n].plastic += outcome[n].work.plastic;
@@ -87,6 +93,7 @@ void advance_and_scatter(const PassOptions& options, const LawTable& laws, Stray
         });
         assign(all_away(outcome, strays), particles, levels, strays);
         scatter_strays(options, laws, strays, particles, levels);
+        scatter_stray_affine(options, strays, particles, levels);
     }
 }
 } // namespace transfer

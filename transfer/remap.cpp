@@ -1,19 +1,23 @@
 #include "core/parallel.h"
 #include "transfer/cell_sum.h"
 #include "transfer/chunk.h"
+#include "transfer/interface_affine.h"
 #include "transfer/passes.h"
 #include "transfer/scatter_leaf.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace transfer
 {
 namespace
 {
 /// Update the velocity (and affine matrix) of the particles [begin, end) that are served, and scatter their momentum.
+/// @param masters  of the cell's hanging corners; null if it has none
 template <Formulation F, Transfer T>
-void remap_cell(const PassOptions& options, const CellFrame& frame, Visitors visitors, const grid::NodeMotion* motion,
-                std::size_t begin, std::size_t end, particles::Particles& particles, grid::NodeSum* tile)
+void remap_cell(const PassOptions& options, const CellFrame& frame, Visitors visitors, const HangingSlopes* masters,
+                const grid::NodeMotion* motion, std::size_t begin, std::size_t end, particles::Particles& particles,
+                grid::NodeSum* tile)
 {
     CellField field;
     read_cell(motion + frame.node, field);
@@ -24,6 +28,7 @@ void remap_cell(const PassOptions& options, const CellFrame& frame, Visitors vis
         const auto x = load_all<core::Vec<Lanes>>(weight_position<F>(particles), p, count);
         const LocalPosition<Lanes> at = local_position(frame, x);
         const LaneMask here = present<F>(visitors, particles, p, count);
+        core::Mat<Lanes> affine;
         for (int a = 0; a < 3; ++a) {
             const auto axis = static_cast<std::size_t>(a);
             const Lanes old = load(particles.velocity[axis], p, count);
@@ -34,13 +39,13 @@ void remap_cell(const PassOptions& options, const CellFrame& frame, Visitors vis
                 fresh = old + value(field, change_column + a, at);
                 if (options.pic_fraction > 0) fresh += Lanes(options.pic_fraction) * (grid_velocity - fresh);
             } else {
-                for (int b = 0; b < 3; ++b) {
-                    particles::Column& entry = particles.affine[static_cast<std::size_t>(3 * a + b)];
-                    store(core::select(here, Lanes(frame.per_spacing) * slope[b], load(entry, p, count)), entry, p,
-                          count);
-                }
+                for (int b = 0; b < 3; ++b) affine(a, b) = Lanes(frame.per_spacing) * slope[b];
             }
             store(core::select(here, fresh, old), particles.velocity[axis], p, count);
+        }
+        if constexpr (T == Transfer::apic) {
+            if (masters != nullptr) affine = through_masters(*masters, affine, at, frame.per_spacing);
+            store_affine({p, count, here, affine}, particles);
         }
         for (int i = 0; i < count; ++i) {
             if (!here[i]) continue;
@@ -60,6 +65,25 @@ void remap_cell(const PassOptions& options, const CellFrame& frame, Visitors vis
     }
     write_cell(sum, frame.per_spacing, tile + frame.node);
 }
+/// Slopes between the masters of a cell's hanging corners; nothing if none hangs, and for FLIP.
+/// @param hanging  of the leaf
+template <Transfer T>
+std::optional<HangingSlopes> slopes_of(const grid::Levels& levels, const HangingRange& hanging, std::size_t leaf,
+                                       int cell)
+{
+    if constexpr (T == Transfer::apic) {
+        const HangingRange range = narrowed(hanging, leaf * grid::leaf_cells + static_cast<std::size_t>(cell));
+        if (range.begin != range.end) return read_slopes(levels, *range.face, range.begin);
+    }
+    return {};
+}
+
+template <Transfer T>
+HangingRange hanging_for(const grid::Levels& levels, std::size_t leaf)
+{
+    if constexpr (T == Transfer::apic) return hanging_cells(levels, leaf);
+    return {};
+}
 } // namespace
 
 void remap_momentum(const PassOptions& options, const Strays& strays, particles::Particles& particles,
@@ -71,20 +95,28 @@ void remap_momentum(const PassOptions& options, const Strays& strays, particles:
             for (int i = 0; i < grid::tile_nodes; ++i) tile[i].momentum = {};
             const std::uint32_t* start = levels.cell_start.data() + n * grid::leaf_cells;
             const LeafFrame frame = leaf_frame(levels, n);
-            for (int c = 0; c < grid::leaf_cells; ++c)
-                if (start[c] != start[c + 1])
-                    remap_cell<F, T>(options, cell_frame(frame, c), Visitors::residents, levels.motions(n), start[c],
-                                     start[c + 1], particles, tile);
+            const HangingRange hanging = hanging_for<T>(levels, n);
+            for (int c = 0; c < grid::leaf_cells; ++c) {
+                if (start[c] == start[c + 1]) continue;
+                const std::optional<HangingSlopes> masters = slopes_of<T>(levels, hanging, n, c);
+                remap_cell<F, T>(options, cell_frame(frame, c), Visitors::residents, masters ? &*masters : nullptr,
+                                 levels.motions(n), start[c], start[c + 1], particles, tile);
+            }
+            scatter_affine(options, particles, n, levels);
         });
         if (strays.size() == 0) return;
         core::parallel_for(strays.run.size() - 1, [&](std::size_t r) {
             for (std::uint32_t s = strays.run[r]; s < strays.run[r + 1]; ++s) {
                 const auto leaf = static_cast<std::size_t>(strays.leaf[s]);
                 const std::uint32_t p = strays.particle[s];
+                const HangingRange hanging = hanging_for<T>(levels, leaf);
+                const std::optional<HangingSlopes> masters = slopes_of<T>(levels, hanging, leaf, strays.cell[s]);
                 remap_cell<F, T>(options, cell_frame(leaf_frame(levels, leaf), strays.cell[s]), Visitors::stray,
-                                 levels.motions(leaf), p, p + 1, particles, levels.sums(leaf));
+                                 masters ? &*masters : nullptr, levels.motions(leaf), p, p + 1, particles,
+                                 levels.sums(leaf));
             }
         });
     });
+    scatter_stray_affine(options, strays, particles, levels);
 }
 } // namespace transfer

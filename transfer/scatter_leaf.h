@@ -5,7 +5,8 @@
 
 namespace transfer
 {
-/// Zero the leaf's sums and scatter the particles at home in its cells.
+/// Zero the leaf's sums and scatter the particles at home in its cells. What hanging corners collect with APIC is
+/// another visit (transfer/interface_affine.h).
 void scatter_leaf(const PassOptions& options, const LawTable& laws, const particles::Particles& particles,
                   std::size_t leaf, grid::Levels& levels);
 

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -89,6 +91,77 @@ TEST(Interface, every_kind_of_row_occurs)
             lengths.insert(face.row_start[s + 1] - face.row_start[s]);
         });
     EXPECT_EQ(lengths, (std::set<int>{1, 2, 4}));
+}
+
+TEST(Interface, rows_and_columns_know_how_far_the_masters_are)
+{
+    for (const support::Topology& topology : support::topologies()) {
+        const grid::Levels levels = support::levels_of(topology);
+        for (std::size_t l = 0; l < levels.interface.size(); ++l) {
+            const grid::LevelInterface& face = levels.interface[l];
+            const Real spacing = levels.spacing(static_cast<int>(l) + 1);
+            const auto expect = [&](const grid::NodeAddress& master, std::int32_t slave,
+                                    const grid::MasterOffset& offset) {
+                const Vec3 apart = support::position_of(levels, master) -
+                                   support::position_of(levels, face.slave[static_cast<std::size_t>(slave)]);
+                EXPECT_LT((apart - spacing * Vec3(offset[0], offset[1], offset[2])).norm(), 1e-14) << topology;
+            };
+            for (std::size_t s = 0; s < face.slave.size(); ++s)
+                for (auto e = static_cast<std::size_t>(face.row_start[s]);
+                     e < static_cast<std::size_t>(face.row_start[s + 1]); ++e)
+                    expect(face.row_master[e], static_cast<std::int32_t>(s), face.row_offset[e]);
+            for (std::size_t m = 0; m < face.master.size(); ++m)
+                for (auto e = static_cast<std::size_t>(face.column_start[m]);
+                     e < static_cast<std::size_t>(face.column_start[m + 1]); ++e)
+                    expect(face.master[m], face.column_slave[e], face.column_offset[e]);
+        }
+    }
+}
+
+// Every corner of every active cell is looked at: those that are slaves off their masters hang, no other does.
+TEST(Interface, hanging_cells_are_the_active_cells_with_a_slave_between_masters)
+{
+    for (const support::Topology& topology : support::topologies()) {
+        const grid::Levels levels = support::levels_of(topology);
+        std::map<std::tuple<int, int, int, int>, std::int32_t> hanging; // node -> slave
+        for (std::size_t l = 0; l < levels.interface.size(); ++l) {
+            const grid::LevelInterface& face = levels.interface[l];
+            for (std::size_t s = 0; s < face.slave.size(); ++s) {
+                if (face.row_start[s + 1] - face.row_start[s] == 1) continue;
+                const Vec3 at = (support::position_of(levels, face.slave[s]) - levels.origin) /
+                                levels.spacing(static_cast<int>(l) + 1);
+                hanging[{static_cast<int>(l), static_cast<int>(std::lround(at[0])),
+                         static_cast<int>(std::lround(at[1])), static_cast<int>(std::lround(at[2]))}] =
+                    static_cast<std::int32_t>(s);
+            }
+        }
+        std::vector<std::size_t> found(levels.interface.size(), 0);
+        for (const grid::CellKey& key : topology.cells) {
+            if (key.level == 0) continue;
+            const auto l = static_cast<std::size_t>(key.level - 1);
+            const grid::HangingCells& cells = levels.interface[l].hanging;
+            std::array<std::int32_t, 8> expected{};
+            for (int c = 0; c < 8; ++c) {
+                const Index3 node = key.cell + Index3(c >> 2, c >> 1 & 1, c & 1);
+                const auto slave = hanging.find({static_cast<int>(l), node[0], node[1], node[2]});
+                expected[static_cast<std::size_t>(c)] = slave == hanging.end() ? -1 : slave->second;
+            }
+            const auto slot = static_cast<std::size_t>(grid::active_slot(levels, key.level, key.cell));
+            const auto at = std::lower_bound(cells.slot.begin(), cells.slot.end(), slot);
+            const bool listed = at != cells.slot.end() && *at == slot;
+            ASSERT_EQ(listed, *std::max_element(expected.begin(), expected.end()) >= 0) << topology;
+            if (!listed) continue;
+            const auto place = static_cast<std::size_t>(at - cells.slot.begin());
+            EXPECT_EQ(cells.slave[place], expected) << topology;
+            for (std::size_t c = 0; c < 8; ++c)
+                if (expected[c] >= 0) {
+                    EXPECT_EQ(cells.around[static_cast<std::size_t>(expected[c])][c], static_cast<int>(place));
+                }
+            ++found[l];
+        }
+        for (std::size_t l = 0; l < found.size(); ++l)
+            EXPECT_EQ(found[l], levels.interface[l].hanging.slot.size()) << topology;
+    }
 }
 
 // methods.md A.4, 8: <P^T f, v> = <f, P v>.
@@ -176,6 +249,10 @@ TEST(Interface, a_restart_rebuilds_the_same_leaves_and_rows)
             EXPECT_EQ(a.row_weight, b.row_weight);
             EXPECT_EQ(a.column_slave, b.column_slave);
             EXPECT_EQ(a.column_weight, b.column_weight);
+            EXPECT_EQ(a.column_offset, b.column_offset);
+            EXPECT_EQ(a.hanging.slot, b.hanging.slot);
+            EXPECT_EQ(a.hanging.slave, b.hanging.slave);
+            EXPECT_EQ(a.hanging.around, b.hanging.around);
         }
         const grid::Refinement refinement = grid::refinement_of_cells(restored);
         for (const grid::CellKey& key : topology.cells) {

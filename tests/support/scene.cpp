@@ -93,6 +93,28 @@ void randomise_state(std::uint64_t seed, Scene& scene)
     for (particles::Column& column : p.affine) fill(column, 1);
 }
 
+void disturb(std::uint64_t seed, Scene& scene)
+{
+    Random random(seed);
+    particles::Particles& p = scene.particles;
+    const auto cell_of = [&](std::size_t n) {
+        return scene.refinement.locate((vector_of(p.position, n) - scene.levels.origin) * (1 / scene.levels.spacing0));
+    };
+    for (std::size_t n = 0; n < p.size(); ++n) {
+        const grid::CellKey home = cell_of(n);
+        const Vec3 from = vector_of(p.position, n);
+        const Vec3 to = from + scene.levels.spacing(home.level) * random.vector(-0.33, 0.33);
+        for (std::size_t a = 0; a < 3; ++a) p.position[a][n] = to[static_cast<int>(a)];
+        const grid::CellKey cell = cell_of(n);
+        if (grid::active_slot(scene.levels, cell.level, cell.cell) < 0) {
+            for (std::size_t a = 0; a < 3; ++a) p.position[a][n] = from[static_cast<int>(a)];
+            continue;
+        }
+        p.away[n] = cell.level != home.level || cell.cell != home.cell ? 1 : 0;
+    }
+    transfer::assign_all(p, scene.levels, scene.strays);
+}
+
 void order(Scene& scene)
 {
     const particles::Particles& p = scene.particles;

@@ -37,6 +37,9 @@ Scene scene_of(const Topology& topology, const transfer::PassOptions& options,
 /// Random velocity, affine matrix and symmetric stress on every particle.
 void randomise_state(std::uint64_t seed, Scene& scene);
 
+/// Updated formulation: move every particle by up to a third of its cell, without ordering. Some are strays then.
+void disturb(std::uint64_t seed, Scene& scene);
+
 /// Build the leaves for where the particles are now and order them.
 void order(Scene& scene);
 
