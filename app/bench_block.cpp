@@ -1,8 +1,11 @@
 #include "app/bench_block.h"
 
+#include "grid/walls.h"
+#include "solver/nodal.h"
 #include "solver/step.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <vector>
@@ -33,20 +36,44 @@ solver::Problem block(const BenchCase& scheme, int cells)
     problem.numerics.formulation = scheme.formulation;
     problem.numerics.stress_update = scheme.stress_update;
     problem.numerics.transfer = scheme.transfer;
+    problem.numerics.precision = scheme.precision;
     return problem;
 }
 
 /// A smooth velocity field that makes the whole block flow.
-void stir(particles::Particles& particles)
+std::array<Real, 3> stirring(const Vec3& x)
 {
-    for (std::size_t p = 0; p < particles.size(); ++p)
-        for (std::size_t a = 0; a < 3; ++a)
-            particles.velocity[a][p] = 5 * std::sin(0.3 * particles.position[(a + 1) % 3][p] + static_cast<Real>(a));
+    return {5 * std::sin(0.3 * x[1]), 5 * std::sin(0.3 * x[2] + 1), 5 * std::sin(0.3 * x[0] + 2)};
+}
+
+void stir_particles(const solver::Prepared& prepared, solver::State& state)
+{
+    particles::Particles& particles = state.particles;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+        const auto v = stirring({particles.position[0][p], particles.position[1][p], particles.position[2][p]});
+        for (std::size_t a = 0; a < 3; ++a) particles.velocity[a][p] = v[a];
+    }
+    transfer::scatter(prepared.options, prepared.laws, state.strays, particles, state.levels);
+}
+
+void stir_nodes(solver::State& state)
+{
+    grid::Levels& levels = state.levels;
+    for (std::size_t n = 0; n < levels.leaves.size(); ++n) {
+        const grid::Leaf& leaf = levels.leaves[n];
+        grid::for_owned_nodes([&](int node) {
+            const Index3 local(node / (grid::tile_side * grid::tile_side), node / grid::tile_side % grid::tile_side,
+                               node % grid::tile_side);
+            const Vec3 x = levels.origin + levels.spacing(leaf.level) * (leaf.origin + local).cast<Real>();
+            levels.motions(n)[node].velocity = stirring(x);
+        });
+    }
 }
 } // namespace
 
 double counted_flops(const BenchCase& scheme)
 {
+    if (scheme.transfer == solver::Transfer::nodal) return 500;
     double flops = scheme.formulation == solver::Formulation::total ? 880 : 700;
     if (scheme.stress_update == solver::StressUpdate::musl) flops += 270;
     if (scheme.transfer == solver::Transfer::apic) flops += 130;
@@ -56,6 +83,10 @@ double counted_flops(const BenchCase& scheme)
 double counted_bytes(const BenchCase& scheme)
 {
     const double node = 46; // sums and motions of the tiles, spread over 8 particles per cell
+    if (scheme.transfer == solver::Transfer::nodal) {
+        const double tiles = 57; // motion and force, spread over 8 particles per cell
+        return scheme.precision == solver::Precision::mixed ? 60 + tiles : 120 + tiles;
+    }
     double bytes = (scheme.formulation == solver::Formulation::total ? 397 : 246) + node;
     if (scheme.stress_update == solver::StressUpdate::musl) bytes += 104 + node;
     if (scheme.transfer == solver::Transfer::apic) bytes += 144;
@@ -68,8 +99,10 @@ BenchResult bench_block(const BenchCase& scheme, int cells, int steps)
     const solver::Prepared prepared = solver::prepare(problem);
     solver::Derived derived;
     solver::State state = solver::initialise(problem, prepared, derived);
-    stir(state.particles);
-    transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
+    if (solver::nodal(problem))
+        stir_nodes(state);
+    else
+        stir_particles(prepared, state);
     std::vector<double> seconds;
     for (int n = 0; n < steps; ++n) {
         const auto start = std::chrono::steady_clock::now();

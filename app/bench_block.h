@@ -12,6 +12,7 @@ struct BenchCase
     solver::Formulation formulation = solver::Formulation::total;
     solver::StressUpdate stress_update = solver::StressUpdate::usl;
     solver::Transfer transfer = solver::Transfer::flip;
+    solver::Precision precision = solver::Precision::f64;
     int levels = 1; // 2: an eighth of the block is refined
 };
 

@@ -30,9 +30,12 @@ const std::vector<BenchCase>& schemes()
     using enum solver::Formulation;
     using enum solver::StressUpdate;
     using enum solver::Transfer;
-    static const std::vector<BenchCase> list{{total, usl, flip, 1},   {total, musl, flip, 1},   {total, usl, apic, 1},
-                                             {updated, usl, flip, 1}, {updated, musl, flip, 1}, {updated, usl, apic, 1},
-                                             {total, usl, flip, 2}};
+    using enum solver::Precision;
+    static const std::vector<BenchCase> list{
+        {total, usl, nodal, mixed, 1}, {total, usl, nodal, mixed, 2}, {total, usl, nodal, f64, 1},
+        {total, usl, nodal, f64, 2},   {total, usl, flip, f64, 1},    {total, usl, flip, f64, 2},
+        {total, musl, flip, f64, 1},   {total, usl, apic, f64, 1},    {updated, usl, flip, f64, 1},
+        {updated, musl, flip, f64, 1}, {updated, usl, apic, f64, 1}};
     return list;
 }
 
@@ -46,7 +49,12 @@ const char* name(solver::StressUpdate s)
 }
 const char* name(solver::Transfer t)
 {
-    return t == solver::Transfer::flip ? "flip" : "apic";
+    return t == solver::Transfer::nodal ? "nodal" : t == solver::Transfer::flip ? "flip" : "apic";
+}
+
+const char* name(solver::Precision p)
+{
+    return p == solver::Precision::mixed ? "mixed" : "f64";
 }
 
 BenchResult measured(const BenchCase& scheme, const Options& options, int threads,
@@ -66,7 +74,7 @@ nlohmann::json entry(const BenchResult& r, const transfer::MachineLimits& limits
             {"formulation", name(r.scheme.formulation)},
             {"stress_update", name(r.scheme.stress_update)},
             {"transfer", name(r.scheme.transfer)},
-            {"precision", "f64"},
+            {"precision", name(r.scheme.precision)},
             {"levels", r.scheme.levels},
             {"threads", r.threads},
             {"particles", r.particles},
@@ -92,17 +100,17 @@ int bench(const Options& options)
         const transfer::MachineLimits limits = transfer::measure_limits(t);
         if (!options.json)
             fmt::print("{} thread{}: triad {:.1f} GB/s, multiply-add peak {:.0f} GF/s\n"
-                       "{:<9} {:<5} {:<5} {:>6} {:>10} {:>12} {:>8} {:>9} {:>6}\n",
+                       "{:<9} {:<5} {:<5} {:<5} {:>6} {:>10} {:>12} {:>8} {:>9} {:>6}\n",
                        t, t == 1 ? "" : "s", limits.triad_bytes_per_s / 1e9, limits.fma_flops_per_s / 1e9, "trilinear",
-                       "upd.", "tran.", "levels", "particles", "M steps/s", "B/step", "flop/step", "roof");
+                       "upd.", "tran.", "prec.", "levels", "particles", "M steps/s", "B/step", "flop/step", "roof");
         for (const BenchCase& scheme : schemes()) {
             const BenchResult r = measured(scheme, options, t, limits);
             all.push_back(entry(r, limits));
             if (!options.json)
-                fmt::print("{:<9} {:<5} {:<5} {:>6} {:>10} {:>12.1f} {:>8.0f} {:>9.0f} {:>5.0f}%\n",
+                fmt::print("{:<9} {:<5} {:<5} {:<5} {:>6} {:>10} {:>12.1f} {:>8.0f} {:>9.0f} {:>5.0f}%\n",
                            name(r.scheme.formulation), name(r.scheme.stress_update), name(r.scheme.transfer),
-                           r.scheme.levels, r.particles, r.particle_steps_per_s / 1e6, r.bytes_per_particle_step,
-                           r.flops_per_particle_step, 100 * r.roof_share);
+                           name(r.scheme.precision), r.scheme.levels, r.particles, r.particle_steps_per_s / 1e6,
+                           r.bytes_per_particle_step, r.flops_per_particle_step, 100 * r.roof_share);
         }
     }
     if (options.json) fmt::print("{}\n", all.dump(2));

@@ -57,13 +57,15 @@ void print_forecast(const solver::Problem& problem, const Forecast& forecast, in
     if (std::isfinite(forecast.end_time)) {
         const Real work = forecast.steps * total;
         fmt::print("steps        {:.0f} to t = {:.4g} ms\n", forecast.steps, forecast.end_time);
+        const Real rate = assumed_steps_per_s(problem.numerics);
         fmt::print(
             "wall time    {} on {} thread{}, assuming {:.0f} million particle-steps/s per thread (`cleave bench` "
             "measures it)\n",
-            duration_text(work / (assumed_steps_per_s * threads)), threads, threads == 1 ? "" : "s",
-            assumed_steps_per_s / 1e6);
-        fmt::print("output       {:.0f} particle frames, {}; {:.0f} volumes, {}\n", forecast.particle_frames,
-                   bytes_text(forecast.particle_bytes), forecast.vdb_frames, bytes_text(forecast.vdb_bytes));
+            duration_text(work / (rate * threads)), threads, threads == 1 ? "" : "s",
+            rate / 1e6);
+        fmt::print("output       {:.0f} particle frames, {}; {:.0f} grid frames, {}; {:.0f} volumes, {}\n",
+                   forecast.particle_frames, bytes_text(forecast.particle_bytes), forecast.grid_frames,
+                   bytes_text(forecast.grid_bytes), forecast.vdb_frames, bytes_text(forecast.vdb_bytes));
     } else {
         fmt::print("steps        not known: the case ends by an opening whose speed no load prescribes\n");
     }

@@ -9,6 +9,7 @@
 #include "app/run_options.h"
 #include "app/stop_request.h"
 #include "core/error.h"
+#include "io/grid_file.h"
 #include "io/particle_file.h"
 #include "io/vdb_file.h"
 #include "solver/observe.h"
@@ -64,13 +65,14 @@ void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
     files.history = std::make_unique<io::HistoryFile>(files.directory / "history.csv", run.problem.grid.levels,
                                                       run.state.clock.step);
     io::rewind_particle_series(files.directory / "particles", run.state.clock.time);
+    io::rewind_grid_series(files.directory / "grid", run.state.clock.time);
     files.vdb_frame = io::last_vdb_frame(files.directory / "vdb", run.state.clock.step);
     files.record.particles_start = before.particles_start;
     files.record.particle_steps = before.particle_steps;
     files.wall_before = before.wall_s;
     Real largest = 0;
     for (const solver::HistoryLine& line : run.state.history) largest = std::max(largest, line.cod);
-    for (Schedule* schedule : {&files.history_due, &files.particles_due, &files.vdb_due})
+    for (Schedule* schedule : {&files.history_due, &files.particles_due, &files.grid_due, &files.vdb_due})
         schedule->skip_to(run.state.clock, largest);
     log.line(fmt::format("resumed at step {}, t = {:.6g} ms", run.state.clock.step, run.state.clock.time));
 }

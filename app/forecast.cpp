@@ -120,6 +120,22 @@ Real bytes_per_written_particle(const solver::Output& output)
     return bytes;
 }
 
+/// Cells with particles, and the coarser ones they fill.
+Real grid_frame_bytes(const solver::Problem& problem, const Forecast& forecast)
+{
+    Real cells = 0, on_level = 0;
+    for (std::size_t l = forecast.particles.size(); l-- > 0;) {
+        on_level = on_level / 8 + static_cast<Real>(forecast.particles[l]) / problem.grid.particles_per_cell;
+        cells += on_level;
+    }
+    Real bytes = 1; // mark of a refined cell
+    for (const std::string& name : problem.output.grid_fields) {
+        const io::ParticleField* field = io::find_particle_field(name);
+        bytes += 4 * static_cast<Real>(field ? field->components : 1);
+    }
+    return cells * bytes;
+}
+
 /// All voxels are as fine as the finest level: a particle of a coarser one fills 8, 64, ... of them.
 Real vdb_frame_bytes(const solver::Problem& problem, const Forecast& forecast)
 {
@@ -156,6 +172,12 @@ std::uint64_t Forecast::total_particles() const
     return total;
 }
 
+Real assumed_steps_per_s(const solver::Numerics& numerics)
+{
+    if (numerics.transfer != solver::Transfer::nodal) return 20e6;
+    return numerics.precision == solver::Precision::mixed ? 70e6 : 45e6;
+}
+
 Forecast forecast(const solver::Problem& problem)
 {
     Forecast forecast;
@@ -168,6 +190,8 @@ Forecast forecast(const solver::Problem& problem)
     forecast.memory = bytes_per_particle * particles + bytes_per_leaf * static_cast<Real>(forecast.leaves);
     forecast.particle_frames = frames(problem.output.particles, forecast, problem);
     forecast.particle_bytes = forecast.particle_frames * particles * bytes_per_written_particle(problem.output);
+    forecast.grid_frames = frames(problem.output.grid, forecast, problem);
+    forecast.grid_bytes = forecast.grid_frames * grid_frame_bytes(problem, forecast);
     forecast.vdb_frames = frames(problem.output.vdb, forecast, problem);
     forecast.vdb_bytes = forecast.vdb_frames * vdb_frame_bytes(problem, forecast);
     forecast.kinetic_share = kinetic_share(problem);

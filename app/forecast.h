@@ -9,10 +9,11 @@
 
 namespace app
 {
-/// Speed per thread assumed where nothing was measured, and memory per particle, both of total-Lagrangian trilinear
-/// runs in double precision; `cleave bench` measures the first on the machine at hand.
-inline constexpr Real assumed_steps_per_s = 20e6; // particle-steps/s of one thread
-inline constexpr Real bytes_per_particle = 300;   // byte, columns and sorting buffers
+/// Speed per thread assumed where nothing was measured [particle-steps/s]; `cleave bench` measures it on the machine at
+/// hand.
+Real assumed_steps_per_s(const solver::Numerics& numerics);
+
+inline constexpr Real bytes_per_particle = 300;   // byte, columns and sorting buffers, at the beginning and for output
 inline constexpr Real bytes_per_leaf = 120e3;     // byte, tile of 9^3 nodes with sums and motion, and tables
 
 struct Forecast
@@ -25,6 +26,8 @@ struct Forecast
     Real memory = 0;                      // byte
     Real particle_frames = 0;             // 1
     Real particle_bytes = 0;              // byte, all frames
+    Real grid_frames = 0;                 // 1
+    Real grid_bytes = 0;                  // byte, all frames
     Real vdb_frames = 0;                  // 1
     Real vdb_bytes = 0;                   // byte, all frames
     Real kinetic_share = 0;               // 1, kinetic over elastic energy of a body that yields everywhere

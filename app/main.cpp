@@ -4,8 +4,17 @@
 
 #include <CLI/CLI.hpp>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 int main(int argc, char** argv)
 {
+#ifdef __GLIBC__
+    // Columns that exist only while results are written go back to the system; the allocator's own threshold grows with
+    // the first of them that is freed, and then they stay.
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
     CLI::App program{"Cleave: material point method for ductile crack evolution", "cleave"};
     program.require_subcommand(1);
     program.set_version_flag("--version", "cleave " CLEAVE_VERSION);

@@ -11,9 +11,10 @@ namespace
 std::string scheme_text(const solver::Numerics& n)
 {
     const bool total = n.formulation == solver::Formulation::total;
-    const std::string transfer = n.transfer == solver::Transfer::apic ? "APIC"
-                                 : n.pic_fraction > 0                 ? fmt::format("FLIP with {} PIC", n.pic_fraction)
-                                                                      : "FLIP";
+    const std::string transfer = n.transfer == solver::Transfer::nodal  ? "motion kept on the nodes"
+                                 : n.transfer == solver::Transfer::apic ? "APIC"
+                                 : n.pic_fraction > 0 ? fmt::format("FLIP with {} PIC", n.pic_fraction)
+                                                      : "FLIP";
     return fmt::format("{} Lagrangian, trilinear basis, {}, stress update {}", total ? "total" : "updated", transfer,
                        n.stress_update == solver::StressUpdate::musl ? "from velocities mapped again (MUSL)"
                                                                      : "last (USL)");

@@ -3,10 +3,12 @@
 #include "app/modelled.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/grid_file.h"
 #include "io/particle_file.h"
 #include "io/process_memory.h"
 #include "io/vdb_file.h"
 #include "solver/measures.h"
+#include "solver/nodal.h"
 #include "solver/observe.h"
 
 #include <fmt/format.h>
@@ -41,6 +43,13 @@ void write_particles(const solver::Problem& problem, const solver::State& state,
     options.particles_per_cell = problem.grid.particles_per_cell;
     options.version = CLEAVE_VERSION;
     io::write_particle_frame(files.directory / "particles", state.particles, state.levels, state.clock, options);
+}
+
+void write_grid(const solver::Problem& problem, const solver::State& state, RunFiles& files)
+{
+    files.last_grid = state.clock.step;
+    const io::GridFileOptions options{problem.output.grid_fields, CLEAVE_VERSION};
+    io::write_grid_frame(files.directory / "grid", state.particles, state.levels, state.clock, options);
 }
 
 void write_volume(const solver::Problem& problem, const solver::State& state, RunFiles& files)
@@ -111,6 +120,7 @@ RunFiles open_files(const fs::path& directory, const io::Case& run_case)
     files.record.version = CLEAVE_VERSION;
     files.history_due.every = run_case.problem.output.history;
     files.particles_due.every = run_case.problem.output.particles;
+    files.grid_due.every = run_case.problem.output.grid;
     files.vdb_due.every = run_case.problem.output.vdb;
     io::write_file(directory / "resolved.toml", run_case.resolved);
     return files;
@@ -122,19 +132,28 @@ void write_due(const solver::Problem& problem, const solver::Prepared& prepared,
     std::optional<Real> cod;
     if (state.clock.step % opening_interval == 0) cod = solver::gauge_opening(problem, state, derived);
     if (files.history_due.due(state.clock, cod)) files.history->append(observe(problem, prepared, derived, state));
-    if (files.particles_due.due(state.clock, cod)) write_particles(problem, state, files);
-    if (files.vdb_due.due(state.clock, cod)) write_volume(problem, state, files);
+    const bool particles = files.particles_due.due(state.clock, cod);
+    const bool grid = files.grid_due.due(state.clock, cod);
+    const bool volume = files.vdb_due.due(state.clock, cod);
+    if (!particles && !grid && !volume) return;
+    const solver::OutputColumns columns(state);
+    if (particles) write_particles(problem, state, files);
+    if (grid) write_grid(problem, state, files);
+    if (volume) write_volume(problem, state, files);
 }
 
-void write_last_frames(const solver::Problem& problem, const solver::State& state, RunFiles& files)
+void write_last_frames(const solver::Problem& problem, solver::State& state, RunFiles& files)
 {
+    const solver::OutputColumns columns(state);
     if (wanted(problem.output.particles) && files.last_particles != state.clock.step)
         write_particles(problem, state, files);
+    if (wanted(problem.output.grid) && files.last_grid != state.clock.step) write_grid(problem, state, files);
     if (wanted(problem.output.vdb) && files.last_vdb != state.clock.step) write_volume(problem, state, files);
 }
 
-void write_checkpoint(const solver::Problem& problem, const solver::State& state, double wall_s, RunFiles& files)
+void write_checkpoint(const solver::Problem& problem, solver::State& state, double wall_s, RunFiles& files)
 {
+    const solver::OutputColumns columns(state);
     io::write_checkpoint(files.directory / "checkpoint", state, files.of_case, problem.output.checkpoint_keep);
     files.last_checkpoint = wall_s;
     write_record(problem, state, wall_s, files);

@@ -37,11 +37,11 @@ struct RunFiles
     io::CheckpointCase of_case;
     io::RunRecord record;
     std::unique_ptr<io::HistoryFile> history;
-    Schedule history_due, particles_due, vdb_due;
+    Schedule history_due, particles_due, grid_due, vdb_due;
     int vdb_frame = 0;
-    std::int64_t last_particles = -1, last_vdb = -1; // steps of the newest frames
-    double last_checkpoint = 0;                      // s, wall time since the start of this part
-    double wall_before = 0;                          // s, of the parts before a restart
+    std::int64_t last_particles = -1, last_grid = -1, last_vdb = -1; // steps of the newest frames
+    double last_checkpoint = 0;                                      // s, wall time since the start of this part
+    double wall_before = 0;                                          // s, of the parts before a restart
 };
 
 /// The directory a run writes to: `-o`, or results/<case>, or with a number behind it if that holds a run already.
@@ -56,10 +56,10 @@ void write_due(const solver::Problem& problem, const solver::Prepared& prepared,
                solver::State& state, RunFiles& files);
 
 /// One more frame of everything, at the end.
-void write_last_frames(const solver::Problem& problem, const solver::State& state, RunFiles& files);
+void write_last_frames(const solver::Problem& problem, solver::State& state, RunFiles& files);
 
 /// Write a checkpoint and bring run.json up to date.
-void write_checkpoint(const solver::Problem& problem, const solver::State& state, double wall_s, RunFiles& files);
+void write_checkpoint(const solver::Problem& problem, solver::State& state, double wall_s, RunFiles& files);
 
 /// Bring run.json up to date.
 void write_record(const solver::Problem& problem, const solver::State& state, double wall_s, RunFiles& files);

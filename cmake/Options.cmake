@@ -14,7 +14,7 @@ target_include_directories(cleave_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(cleave_options INTERFACE -fno-math-errno -fno-trapping-math
     -ffp-contract=fast # ISO mode would switch fused multiply-adds off: a third of the kernels' speed
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi> # vector types never cross a library, so their calling convention is ours
+    -Wno-psabi # vector types never cross a library, so their calling convention is ours
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # g++ 12 warns about its own std::string (GCC bug 105329)
     $<$<BOOL:${CLEAVE_WERROR}>:-Werror>
     $<$<BOOL:${CLEAVE_NATIVE}>:-march=native>)

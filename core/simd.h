@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #if defined(__AVX512F__) || defined(__AVX__)
 #include <immintrin.h>
@@ -114,7 +115,68 @@ inline bool any(Mask<double, 8> mask)
 {
     return _mm512_test_epi64_mask(reinterpret_cast<__m512i>(mask.v), reinterpret_cast<__m512i>(mask.v)) != 0;
 }
+inline bool any(Mask<float, 16> mask)
+{
+    return _mm512_test_epi32_mask(reinterpret_cast<__m512i>(mask.v), reinterpret_cast<__m512i>(mask.v)) != 0;
+}
 #endif
+
+/// Lane by lane to another number type.
+template <class U, class T, int N>
+Pack<U, N> convert(Pack<T, N> a)
+{
+    return {__builtin_convertvector(a.v, typename Pack<U, N>::Lanes)};
+}
+
+namespace detail
+{
+/// Place of lane `i` of a shuffle pattern written for eight lanes, where both operands hold `lanes / 8` groups of
+/// eight.
+constexpr int grouped(const int (&pattern)[8], int lanes, int i)
+{
+    const int from = pattern[i % 8];
+    return (from < 8 ? 0 : lanes) + i / 8 * 8 + from % 8;
+}
+
+template <const int (&Pattern)[8], class T, int N>
+[[gnu::always_inline]] inline Pack<T, N> shuffled(Pack<T, N> a, Pack<T, N> b)
+{
+    return [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline))->Pack<T, N>
+    {
+        return {__builtin_shufflevector(a.v, b.v, grouped(Pattern, N, I)...)};
+    }
+    (std::make_integer_sequence<int, N>{});
+}
+
+inline constexpr int pair_even[8] = {0, 8, 2, 10, 4, 12, 6, 14};
+inline constexpr int pair_odd[8] = {1, 9, 3, 11, 5, 13, 7, 15};
+inline constexpr int quad_lower[8] = {0, 1, 8, 9, 4, 5, 12, 13};
+inline constexpr int quad_upper[8] = {2, 3, 10, 11, 6, 7, 14, 15};
+inline constexpr int half_lower[8] = {0, 1, 2, 3, 8, 9, 10, 11};
+inline constexpr int half_upper[8] = {4, 5, 6, 7, 12, 13, 14, 15};
+} // namespace detail
+
+/// Rows become columns in every 8x8 block of eight vectors (N = 8: one block, N = 16: two side by side), in three
+/// rounds of pairwise shuffles.
+template <class T, int N>
+requires(N % 8 == 0) [[gnu::always_inline]] inline void transpose(Pack<T, N> (&r)[8])
+{
+    using namespace detail;
+    Pack<T, N> pair[8], quad[8];
+    for (int i = 0; i < 8; i += 2) {
+        pair[i] = shuffled<pair_even>(r[i], r[i + 1]);
+        pair[i + 1] = shuffled<pair_odd>(r[i], r[i + 1]);
+    }
+    for (int half = 0; half < 8; half += 4)
+        for (int i = half; i < half + 2; ++i) {
+            quad[i] = shuffled<quad_lower>(pair[i], pair[i + 2]);
+            quad[i + 2] = shuffled<quad_upper>(pair[i], pair[i + 2]);
+        }
+    for (int i = 0; i < 4; ++i) {
+        r[i] = shuffled<half_lower>(quad[i], quad[i + 4]);
+        r[i + 4] = shuffled<half_upper>(quad[i], quad[i + 4]);
+    }
+}
 
 template <class T, int N>
 Pack<T, N> sqrt(Pack<T, N> a)

@@ -3,17 +3,10 @@
 /// v = p / m,  v+ = v + dt (f / m + g);  normal components on symmetry planes are zero before and after.
 #pragma once
 
-#include "grid/levels.h"
+#include "grid/walls.h"
 
 namespace grid
 {
-/// A coordinate plane of nodes with zero normal velocity.
-struct WallPlane
-{
-    int axis = 2;
-    int node0 = 0; // index of the plane's nodes on level 0; 2^l node0 on level l
-};
-
 /// @param gravity      mm/ms^2
 /// @param mass_cutoff  g, per level: lighter nodes do not move
 /// @param dt           ms

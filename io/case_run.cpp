@@ -46,16 +46,28 @@ void read_numerics(Draft& draft)
     solver::Numerics& numerics = draft.problem.numerics;
     numerics.formulation = section.choice<solver::Formulation>("formulation");
     numerics.basis = section.choice<solver::Basis>("basis");
-    numerics.transfer = section.choice<solver::Transfer>("transfer");
     numerics.stress_update = section.choice("stress_update", numerics.formulation == solver::Formulation::updated
                                                                  ? solver::StressUpdate::musl
                                                                  : solver::StressUpdate::usl);
     numerics.pic_fraction = section.real("pic_fraction");
     numerics.cfl = section.real("cfl");
     numerics.mass_cutoff = section.real("mass_cutoff");
+    const bool lattice = numerics.formulation == solver::Formulation::total &&
+                         numerics.stress_update == solver::StressUpdate::usl &&
+                         draft.problem.grid.particles_per_cell == 8;
+    numerics.transfer = section.choice("transfer", lattice && numerics.pic_fraction == 0 ? solver::Transfer::nodal
+                                                                                         : solver::Transfer::flip);
+    numerics.precision = section.choice<solver::Precision>("precision");
+    if (numerics.precision == solver::Precision::mixed && numerics.transfer != solver::Transfer::nodal)
+        section.error("precision", "precision = \"mixed\" needs transfer = \"nodal\"");
     if (numerics.cfl >= 1) section.error("cfl", "cfl must be below 1: the explicit step is unstable beyond");
-    if (numerics.transfer == solver::Transfer::apic && numerics.pic_fraction > 0)
+    if (numerics.transfer != solver::Transfer::flip && numerics.pic_fraction > 0)
         section.error("pic_fraction", "pic_fraction belongs to transfer = \"flip\"");
+    if (numerics.transfer == solver::Transfer::nodal && !lattice)
+        section.error("transfer",
+                      "transfer = \"nodal\" needs formulation = \"total\", stress_update = \"usl\" and "
+                      "grid.particles_per_cell = 8",
+                      "choose \"flip\" or \"apic\"");
     section.finish();
     keep(draft, {"numerics"}, section.resolved());
 }
@@ -90,6 +102,10 @@ void read_output(Draft& draft)
         output.particle_fields = section.names("fields");
         output.particle_precision = section.choice_name("precision");
         check_particle_fields(draft, section, output.particle_fields);
+    });
+    read_part(draft, table, "grid", [&](SectionReader& section) {
+        output.grid = read_every(draft, section);
+        output.grid_fields = section.names("fields");
     });
     read_part(draft, table, "vdb", [&](SectionReader& section) {
         output.vdb = read_every(draft, section);

@@ -197,12 +197,44 @@ std::vector<solver::HistoryLine> load_history(int levels, const Hdf5Reader& file
     }
     return history;
 }
+/// Motion of all nodes and the force they begin the next step with; nodal scheme only.
+void store_nodes(const solver::State& state, Hdf5Writer& file)
+{
+    if (!state.lattice.in_use()) return;
+    std::vector<Real> motion, force;
+    for (const grid::NodeMotion& node : state.levels.motion) {
+        motion.insert(motion.end(), node.velocity.begin(), node.velocity.end());
+        motion.insert(motion.end(), node.change.begin(), node.change.end());
+    }
+    for (const grid::NodeForce& node : state.levels.force)
+        force.insert(force.end(), node.force.begin(), node.force.end());
+    store("/levels/motion", motion, 6, file);
+    store("/levels/force", force, 3, file);
+}
+
+void load_nodes(const Hdf5Reader& file, solver::State& state)
+{
+    if (!file.exists("/levels/motion")) return;
+    const auto motion = file.dataset<Real>("/levels/motion");
+    const auto force = file.dataset<Real>("/levels/force");
+    const std::size_t nodes = state.levels.leaves.size() * grid::tile_nodes;
+    if (motion.size() != 6 * nodes || force.size() != 3 * nodes) damaged(file, "the nodes do not fit the leaves");
+    state.levels.motion.assign(nodes, {});
+    state.levels.force.assign(nodes, {});
+    for (std::size_t n = 0; n < nodes; ++n)
+        for (std::size_t a = 0; a < 3; ++a) {
+            state.levels.motion[n].velocity[a] = motion[6 * n + a];
+            state.levels.motion[n].change[a] = motion[6 * n + 3 + a];
+            state.levels.force[n].force[a] = force[3 * n + a];
+        }
+}
 } // namespace
 
 void store_state(const solver::State& state, Hdf5Writer& file)
 {
     store_particles(state.particles, file);
     store_levels(state.levels, file);
+    store_nodes(state, file);
     store_rows("/clock", std::vector{state.clock}, file);
     store_rows("/loads", state.loads, file);
     store_rows("/ligaments", state.ligaments, file);
@@ -220,6 +252,7 @@ solver::State load_state(const Hdf5Reader& file)
     solver::State state;
     state.particles = load_particles(file);
     state.levels = load_levels(state.particles.size(), file);
+    load_nodes(file, state);
     state.clock = load_row<solver::Clock>("/clock", file);
     state.loads = load_rows<solver::LoadState>("/loads", file);
     state.ligaments = load_rows<solver::LigamentState>("/ligaments", file);

@@ -1,16 +1,13 @@
 #include "io/particle_file.h"
 
 #include "core/contract.h"
-#include "core/error.h"
 #include "io/hdf5.h"
 #include "io/particle_columns.h"
 #include "io/particle_fields.h"
+#include "io/vtkhdf_series.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace io
@@ -51,43 +48,6 @@ void write_cells(std::int64_t count, Hdf5Writer& file)
     file.dataset<std::int64_t>("/VTKHDF/Offsets", offsets);
     file.dataset<std::uint8_t>("/VTKHDF/Types", std::vector<std::uint8_t>(index.size() - 1, vtk_vertex));
 }
-
-struct SeriesEntry
-{
-    std::string name;
-    Real time; // ms
-};
-
-std::vector<SeriesEntry> read_series(const std::filesystem::path& path)
-{
-    std::vector<SeriesEntry> entries;
-    if (!std::filesystem::exists(path)) return entries;
-    try {
-        const auto series = nlohmann::json::parse(read_file(path));
-        for (const auto& entry : series.at("files")) entries.push_back({entry.at("name"), entry.at("time")});
-    } catch (const nlohmann::json::exception& error) {
-        throw core::FileError("cannot read '" + path.string() + "': " + error.what());
-    }
-    return entries;
-}
-
-void write_series(const std::filesystem::path& path, const std::vector<SeriesEntry>& entries)
-{
-    nlohmann::ordered_json series{{"file-series-version", "1.0"}, {"files", nlohmann::ordered_json::array()}};
-    for (const SeriesEntry& entry : entries) series["files"].push_back({{"name", entry.name}, {"time", entry.time}});
-    write_file(path, series.dump(1) + "\n");
-}
-
-/// The series up to and without `name`, in order of time: rewriting a frame moves nothing else.
-void enter_frame(const std::filesystem::path& path, const SeriesEntry& entry)
-{
-    std::vector<SeriesEntry> entries = read_series(path);
-    std::erase_if(entries, [&](const SeriesEntry& old) { return old.name == entry.name; });
-    entries.push_back(entry);
-    std::stable_sort(entries.begin(), entries.end(),
-                     [](const SeriesEntry& a, const SeriesEntry& b) { return a.time < b.time; });
-    write_series(path, entries);
-}
 } // namespace
 
 std::filesystem::path write_particle_frame(const std::filesystem::path& directory,
@@ -97,17 +57,9 @@ std::filesystem::path write_particle_frame(const std::filesystem::path& director
     make_directory(directory);
     const std::string name = fmt::format("p_{:06}.hdf", clock.step);
     Hdf5Writer file(directory / name);
-    file.attribute("/", "time", clock.time);
-    file.attribute("/", "step", clock.step);
-    file.attribute("/", "units", std::string_view("mm-g-ms"));
-    file.attribute("/", "version", std::string_view(options.version));
+    write_vtkhdf_head(clock, options.version, "UnstructuredGrid", file);
     const std::vector<Real> side = particle_sides(particles, levels, options.particles_per_cell);
     file.dataset<float>("/particle_side", std::vector<float>(side.begin(), side.end()));
-
-    constexpr std::array<std::int64_t, 2> format_version{1, 0};
-    file.group("/VTKHDF");
-    file.attribute<std::int64_t>("/VTKHDF", "Version", std::span(format_version));
-    file.attribute("/VTKHDF", "Type", std::string_view("UnstructuredGrid"));
     file.group("/VTKHDF/PointData");
     write_cells(static_cast<std::int64_t>(particles.size()), file);
     if (options.precision == Precision::f32)
@@ -122,11 +74,7 @@ std::filesystem::path write_particle_frame(const std::filesystem::path& director
 
 void rewind_particle_series(const std::filesystem::path& directory, Real time)
 {
-    const std::filesystem::path path = directory / series_name;
-    if (!std::filesystem::exists(path)) return;
-    std::vector<SeriesEntry> entries = read_series(path);
-    std::erase_if(entries, [&](const SeriesEntry& entry) { return entry.time > time; });
-    write_series(path, entries);
+    rewind_series(directory / series_name, time);
 }
 
 std::optional<ParticleFrame> read_last_particle_frame(const std::filesystem::path& directory,

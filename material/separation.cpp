@@ -1,6 +1,7 @@
 #include "material/separation.h"
 
 #include "core/contract.h"
+#include "material/crack_faces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,55 +10,7 @@ namespace material
 {
 namespace
 {
-using Vec = core::Vec<double>;
-using Sym = core::Sym<double>;
-
 constexpr double surface_tolerance = 1e-10; // of U_0 (D.11 item 22)
-
-/// Traction on the crack plane, split.
-struct Traction
-{
-    double normal = 0; // MPa
-    Vec tangential{};  // MPa
-    double shear() const { return std::sqrt(core::dot(tangential, tangential)); }
-};
-
-Traction traction_on(const Sym& stress, const Vec& normal)
-{
-    const Vec whole = stress * normal;
-    const double along = core::dot(whole, normal);
-    return {along, whole - along * normal};
-}
-
-/// Stress after the traction gave way by `released`: sigma^tr - [lambda_L du_n I + mu (n du + du n)] / L_e with
-/// du_n = L_e released_n / M, du_t = L_e released_t / mu.
-Sym relaxed(const SeparationLaw& law, const Sym& trial, const Vec& n, const Traction& released)
-{
-    const double opening = released.normal / law.wave_modulus;
-    const double volumetric = law.lame.lame * opening;
-    const Vec a = (law.shear_modulus * opening) * n + released.tangential; // stress part n a^T + a n^T
-    return {{trial[0] - volumetric - 2 * n[0] * a[0], trial[1] - volumetric - 2 * n[1] * a[1],
-             trial[2] - volumetric - 2 * n[2] * a[2], trial[3] - n[0] * a[1] - n[1] * a[0],
-             trial[4] - n[1] * a[2] - n[2] * a[1], trial[5] - n[2] * a[0] - n[0] * a[2]}};
-}
-
-/// Add the opening that released the traction to the crack and its trapezoidal work to the step, all at once.
-void open(const SeparationLaw& law, const Traction& before, const Traction& trial, const Traction& released,
-          const Vec& n, DecohesionStep& result)
-{
-    core::Crack& crack = result.crack;
-    const double strain_n = released.normal / law.wave_modulus; // du_n / L_e
-    crack.opening += crack.effective_length * strain_n;
-    for (int i = 0; i < 3; ++i)
-        crack.slip[static_cast<std::size_t>(i)] += crack.effective_length * released.tangential[i] / law.shear_modulus;
-
-    const Traction after{trial.normal - released.normal, trial.tangential - released.tangential};
-    const double work =
-        0.5 * ((before.normal + after.normal) * strain_n +
-               core::dot(before.tangential + after.tangential, released.tangential) / law.shear_modulus);
-    result.decohesion_work += std::max(work, 0.0); // negative: only the trapezoid's error where a traction changes sign
-    result.stress = relaxed(law, result.stress, n, released);
-}
 
 /// (1 - lambda^q), the part of the strength left.
 double strength_left(double q, double damage)
@@ -66,7 +19,7 @@ double strength_left(double q, double damage)
 }
 
 /// Traction given up by the softening law; advances the damage.
-Traction softened(const SeparationLaw& law, core::Crack& crack, const Traction& trial)
+Traction<double> softened(const SeparationLaw& law, core::Crack& crack, const Traction<double>& trial)
 {
     const double tension = std::max(trial.normal, 0.0), shear = trial.shear();
     const double x_n = tension / crack.normal_strength, x_t = shear / crack.tangential_strength;
@@ -88,7 +41,7 @@ Traction softened(const SeparationLaw& law, core::Crack& crack, const Traction& 
 }
 
 /// Traction given up by the brittle drop: both components bounded by a ramp that starts at their values at onset.
-Traction dropped(const SeparationLaw& law, core::Crack& crack, const Traction& trial, double dt)
+Traction<double> dropped(const SeparationLaw& law, core::Crack& crack, const Traction<double>& trial, double dt)
 {
     crack.damage = std::min(1.0, crack.damage + dt * law.drop_speed / crack.effective_length);
     const double left = 1 - crack.damage;
@@ -96,38 +49,6 @@ Traction dropped(const SeparationLaw& law, core::Crack& crack, const Traction& t
     const double excess_n = std::max(0.0, trial.normal - left * crack.drop_traction[0]);
     const double excess_t = std::max(0.0, shear - left * crack.drop_traction[1]);
     return {excess_n, (shear > 0 ? excess_t / shear : 0.0) * trial.tangential};
-}
-
-/// Traction a separated crack cannot carry: all tension; all shear beyond friction. Closing stops at zero opening, so
-/// the release is negative (the gap gives way to compression) at most by the opening there is.
-Traction unsupported(const SeparationLaw& law, const core::Crack& crack, const Traction& trial)
-{
-    const double gap = law.wave_modulus * crack.opening / crack.effective_length; // MPa that closing takes up
-    const double released_n = std::max(-gap, trial.normal);
-    const double shear = trial.shear();
-    const double held = std::min(shear, law.friction * std::max(0.0, released_n - trial.normal));
-    return {released_n, (shear > 0 ? 1 - held / shear : 0.0) * trial.tangential};
-}
-
-/// Full separation: relax the crack, return what is left to the yield surface, relax what the return put on the crack.
-/// The crack goes first, so that free opening is never taken for plastic strain.
-void slide(const SeparationLaw& law, Traction before, const Vec& n, DecohesionStep& result)
-{
-    // Without cohesion only friction dissipates: the trapezoid of an opening and closing normal traction is left out.
-    const auto relax = [&] {
-        const Traction trial = traction_on(result.stress, n);
-        const Traction released = unsupported(law, result.crack, trial);
-        before.normal = released.normal - trial.normal; // makes the normal part of the trapezoid exactly zero
-        open(law, before, trial, released, n, result);
-        before = {trial.normal - released.normal, trial.tangential - released.tangential};
-    };
-    relax();
-    if (!law.plastic) return;
-    const PlasticStep<double> returned = radial_return(result.stress, result.eq_plastic_strain, *law.plastic);
-    result.stress = returned.stress;
-    result.eq_plastic_strain = returned.eq_plastic_strain;
-    result.plastic_work = returned.work;
-    if (returned.work > 0) relax();
 }
 
 /// Smallest zero of the surface equation for q < 1, where softening starts with an infinite slope: first sign change on
@@ -205,23 +126,22 @@ SeparationLaw separation_law(const Material& material)
 DecohesionStep separate(const SeparationLaw& law, const core::Crack& crack, const StrainStep& step)
 {
     CLEAVE_EXPECTS(crack.effective_length > 0);
-    const Vec turned = step.rotation * Vec{crack.normal};
-    const Vec n = (1 / std::sqrt(core::dot(turned, turned))) * turned;
-    const Sym old = core::rotated(step.rotation, step.stress);
-
-    DecohesionStep result{elastic_trial(old, step.strain, law.lame), crack, step.eq_plastic_strain, 0, 0};
-    result.crack.normal = n.v;
-    result.crack.slip = (step.rotation * Vec{crack.slip}).v;
-    const Traction before = traction_on(old, n);
+    Faces<double> faces{
+        {crack.normal}, {crack.slip}, crack.opening, crack.effective_length, step.stress, step.eq_plastic_strain, 0, 0};
+    const Traction<double> before = begin_step(law, step.rotation, step.strain, faces);
+    core::Crack after = crack;
     if (crack.damage >= 1) {
-        slide(law, before, n, result);
-        return result;
+        slide(law, before, faces);
+    } else {
+        const Traction<double> trial = traction_on(faces.stress, faces.normal);
+        const bool brittle = law.drop_speed > 0 && crack.snap_back_ratio >= 1;
+        const Traction<double> released = brittle ? dropped(law, after, trial, step.dt) : softened(law, after, trial);
+        open(law, before, trial, released, faces);
+        if (after.damage >= 1) after.separation_time = step.time;
     }
-    const Traction trial = traction_on(result.stress, n);
-    const bool brittle = law.drop_speed > 0 && crack.snap_back_ratio >= 1;
-    const Traction released = brittle ? dropped(law, result.crack, trial, step.dt) : softened(law, result.crack, trial);
-    open(law, before, trial, released, n, result);
-    if (result.crack.damage >= 1) result.crack.separation_time = step.time;
-    return result;
+    after.normal = faces.normal.v;
+    after.slip = faces.slip.v;
+    after.opening = faces.opening;
+    return {faces.stress, after, faces.eq_plastic_strain, faces.decohesion_work, faces.plastic_work};
 }
 } // namespace material

@@ -20,9 +20,31 @@ Real volume(const particles::Particles& particles, Formulation formulation, std:
     const std::int32_t crack = particles.crack[p];
     return crack < 0 ? v : v * transfer::solid_share(particles.cracks[static_cast<std::size_t>(crack)]);
 }
-} // namespace
 
-Ledger audit(const Prepared& prepared, const State& state)
+/// Kinetic and elastic energy and the work of gravity, leaf by leaf, from nodes that carry the motion.
+std::vector<Ledger> audit_nodes(const Prepared& prepared, const State& state)
+{
+    const grid::Levels& levels = state.levels;
+    std::vector<Ledger> leaf(levels.leaves.size());
+    std::vector<transfer::LatticeSurvey> survey;
+    transfer::survey_lattice(prepared.laws, state.lattice, state.particles, levels, survey);
+    core::parallel_for(leaf.size(), [&](std::size_t n) {
+        leaf[n].elastic = survey[n].elastic;
+        for (int cell = 0; cell < grid::leaf_cells; ++cell) { // the node at a cell's lower corner is owned
+            const int node = grid::tile_index(cell >> 6, cell >> 3 & 7, cell & 7);
+            const Real per_mass = levels.forces(n)[node].per_mass;
+            const Real mass = per_mass > 0 ? 1 / per_mass : Real(0);
+            const grid::NodeMotion& motion = levels.motions(n)[node];
+            for (std::size_t a = 0; a < 3; ++a) {
+                leaf[n].kinetic += mass * motion.velocity[a] * motion.velocity[a] / 2;
+                leaf[n].external += mass * prepared.gravity[static_cast<int>(a)] * motion.change[a];
+            }
+        }
+    });
+    return leaf;
+}
+
+std::vector<Ledger> audit_particles(const Prepared& prepared, const State& state)
 {
     const particles::Particles& particles = state.particles;
     const grid::Levels& levels = state.levels;
@@ -41,6 +63,14 @@ Ledger audit(const Prepared& prepared, const State& state)
                                                         particles::stress_of(particles, p));
         }
     });
+    return leaf;
+}
+} // namespace
+
+Ledger audit(const Prepared& prepared, const State& state)
+{
+    const bool nodal = prepared.options.transfer == Transfer::nodal;
+    const std::vector<Ledger> leaf = nodal ? audit_nodes(prepared, state) : audit_particles(prepared, state);
     Ledger total;
     total.plastic = state.folded_work.plastic;
     total.decohesion = state.folded_work.decohesion;

@@ -6,9 +6,9 @@
 
 namespace solver
 {
-/// Kinetic energy sum m v^2 / 2 of the particles (the affine part of APIC counts as residual), stored elastic energy
-/// sum V sigma : C^{-1} : sigma / 2, dissipation so far, work of the loads and
-/// of gravity.
+/// Kinetic energy sum m v^2 / 2 of the particles (the affine part of APIC counts as residual), in the nodal scheme of
+/// the nodes, stored elastic energy sum V sigma : C^{-1} : sigma / 2, dissipation so far, work of the loads and of
+/// gravity.
 /// @return  mJ, of the modelled part; sums in leaf order
 Ledger audit(const Prepared& prepared, const State& state);
 

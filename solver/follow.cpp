@@ -44,6 +44,7 @@ void regrid(const Problem& problem, const Prepared& prepared, State& state, Deri
     transfer::assign_all(state.particles, state.levels, state.strays);
     find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
     find_gauges(state, derived);
+    weigh_columns(state.particles, derived.ligaments);
     transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
 }
 

@@ -6,6 +6,7 @@
 #include "refine/regrid.h"
 #include "solver/audit.h"
 #include "solver/follow.h"
+#include "solver/nodal.h"
 #include "solver/step.h"
 
 #include <fmt/format.h>
@@ -115,6 +116,7 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
     find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
     find_gauges(state, derived);
     derived.ligaments = ligament_map(problem);
+    weigh_columns(state.particles, derived.ligaments);
     const auto scatter = [&] {
         transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
     };
@@ -124,6 +126,10 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
     grid::restrict_sums(state.levels);
     check_loads(problem, state.levels, derived);
     scatter();
+    if (nodal(problem)) {
+        start_nodal(prepared, state);
+        keep_heavy_nodes(state.levels, derived.load_nodes);
+    }
     const Ledger start = audit(prepared, state);
     state.initial_energy = start.kinetic + start.elastic;
     return state;
@@ -131,12 +137,22 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
 
 void resume(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
 {
+    std::vector<grid::NodeForce> force = std::move(state.levels.force);
+    std::vector<grid::NodeMotion> motion = std::move(state.levels.motion);
     grid::restore(state.levels);
     state.strays.refinement = grid::refinement_of_cells(state.levels);
     transfer::assign_all(state.particles, state.levels, state.strays);
     find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
     find_gauges(state, derived);
     derived.ligaments = ligament_map(problem);
-    transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
+    weigh_columns(state.particles, derived.ligaments);
+    if (nodal(problem)) {
+        state.levels.force = std::move(force);
+        state.levels.motion = std::move(motion);
+        resume_nodal(prepared, state);
+        keep_heavy_nodes(state.levels, derived.load_nodes);
+    } else {
+        transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
+    }
 }
 } // namespace solver

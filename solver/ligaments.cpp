@@ -69,37 +69,51 @@ LigamentColumns columns_of(const Problem& problem, const Ligament& ligament)
 /// Contents of one ligament's columns at one time.
 struct Contents
 {
-    std::vector<Real> volume;    // mm^3, rest volume of the particles in the column
-    std::vector<Real> separated; // mm^3, of those with damage 1
+    std::vector<Real> separated; // mm^3, rest volume of the particles with damage 1
     bool damaged = false;        // some particle has damage > 0
-
-    explicit Contents(std::size_t count) : volume(count, 0), separated(count, 0) {}
+    bool any_separated = false;  // some particle has damage 1
 };
 
-Contents contents_of(const LigamentColumns& columns, const particles::Particles& particles)
+/// Particles with decohesion state, ascending.
+std::vector<std::uint32_t> cracked(const particles::Particles& particles)
 {
-    Contents contents(columns.inside.size());
-    const auto& rest_u = particles.rest_position[static_cast<std::size_t>(columns.axis_u)];
-    const auto& rest_v = particles.rest_position[static_cast<std::size_t>(columns.axis_v)];
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-        const std::int32_t column = columns.column(rest_u[p], rest_v[p]);
+    std::vector<std::uint32_t> places;
+    if (particles.cracks.empty()) return places;
+    for (std::uint32_t p = 0; p < particles.size(); ++p)
+        if (particles.crack[p] >= 0) places.push_back(p);
+    return places;
+}
+
+std::int32_t column_of(const LigamentColumns& columns, const particles::Particles& particles, std::size_t p)
+{
+    return columns.column(particles.rest_position[static_cast<std::size_t>(columns.axis_u)][p],
+                          particles.rest_position[static_cast<std::size_t>(columns.axis_v)][p]);
+}
+
+/// @param places  particles with decohesion state: nobody else is looked at
+Contents contents_of(const LigamentColumns& columns, const particles::Particles& particles,
+                     const std::vector<std::uint32_t>& places)
+{
+    Contents contents;
+    contents.separated.assign(columns.inside.size(), 0);
+    for (const std::uint32_t p : places) {
+        const std::int32_t column = column_of(columns, particles, p);
         if (column < 0) continue;
-        const auto c = static_cast<std::size_t>(column);
-        contents.volume[c] += particles.rest_volume[p];
-        if (particles.crack[p] < 0) continue;
         const Real damage = particles.cracks[static_cast<std::size_t>(particles.crack[p])].damage;
         contents.damaged = contents.damaged || damage > 0;
-        if (damage >= 1) contents.separated[c] += particles.rest_volume[p];
+        if (damage < 1) continue;
+        contents.separated[static_cast<std::size_t>(column)] += particles.rest_volume[p];
+        contents.any_separated = true;
     }
     return contents;
 }
 
 /// 1 for the broken columns.
-std::vector<std::uint8_t> broken_columns(const Contents& contents)
+std::vector<std::uint8_t> broken_columns(const LigamentColumns& columns, const Contents& contents)
 {
-    std::vector<std::uint8_t> broken(contents.volume.size());
+    std::vector<std::uint8_t> broken(columns.volume.size());
     for (std::size_t c = 0; c < broken.size(); ++c)
-        broken[c] = contents.separated[c] > 0 && contents.separated[c] >= broken_share * contents.volume[c];
+        broken[c] = contents.separated[c] > 0 && contents.separated[c] >= broken_share * columns.volume[c];
     return broken;
 }
 
@@ -131,7 +145,7 @@ bool joins(const LigamentColumns& columns, const std::vector<std::uint8_t>& brok
 }
 
 /// Share of the stations with material that have a broken column.
-Real broken_front(const LigamentColumns& columns, const Contents& contents, const std::vector<std::uint8_t>& broken)
+Real broken_front(const LigamentColumns& columns, const std::vector<std::uint8_t>& broken)
 {
     if (columns.station.empty()) return 0;
     const auto [first, last] = std::minmax_element(columns.station.begin(), columns.station.end());
@@ -140,7 +154,7 @@ Real broken_front(const LigamentColumns& columns, const Contents& contents, cons
         std::uint8_t& value = station[static_cast<std::size_t>(columns.station[c] - *first)];
         if (broken[c])
             value = 2;
-        else if (contents.volume[c] > 0)
+        else if (columns.volume[c] > 0)
             value = std::max<std::uint8_t>(value, 1);
     }
     const auto material = std::count_if(station.begin(), station.end(), [](std::uint8_t s) { return s > 0; });
@@ -172,21 +186,36 @@ LigamentMap ligament_map(const Problem& problem)
     return map;
 }
 
+void weigh_columns(const particles::Particles& particles, LigamentMap& map)
+{
+    for (LigamentColumns& columns : map.ligaments) {
+        columns.volume.assign(columns.inside.size(), 0);
+        for (std::size_t p = 0; p < particles.size(); ++p) {
+            const std::int32_t column = column_of(columns, particles, p);
+            if (column >= 0) columns.volume[static_cast<std::size_t>(column)] += particles.rest_volume[p];
+        }
+    }
+}
+
 void update_ligaments(const LigamentMap& map, const particles::Particles& particles, const Observation& now,
                       std::vector<LigamentState>& ligaments)
 {
     if (ligaments.empty()) ligaments.resize(map.ligaments.size());
     CLEAVE_EXPECTS(ligaments.size() == map.ligaments.size());
+    const std::vector<std::uint32_t> places = cracked(particles);
+    if (places.empty()) return;
     for (std::size_t i = 0; i < ligaments.size(); ++i) {
         const LigamentColumns& columns = map.ligaments[i];
         LigamentState& state = ligaments[i];
-        const Contents contents = contents_of(columns, particles);
+        const Contents contents = contents_of(columns, particles, places);
         if (!contents.damaged) continue;
         note(now, state.onset_time, state.onset_force, state.onset_cod);
-        const std::vector<std::uint8_t> broken = broken_columns(contents);
+        if (!contents.any_separated) continue;
+        CLEAVE_EXPECTS(columns.volume.size() == columns.inside.size());
+        const std::vector<std::uint8_t> broken = broken_columns(columns, contents);
         if (std::find(broken.begin(), broken.end(), 1) == broken.end()) continue;
         note(now, state.first_time, state.first_force, state.first_cod);
-        state.front = broken_front(columns, contents, broken);
+        state.front = broken_front(columns, broken);
         if (state.through_time < 0 && joins(columns, broken))
             note(now, state.through_time, state.through_force, state.through_cod);
     }

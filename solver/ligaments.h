@@ -34,6 +34,7 @@ struct LigamentColumns
     std::vector<std::uint8_t> touches_from; // likewise, 1: touches feature `from`
     std::vector<std::uint8_t> touches_to;   // likewise
     std::vector<std::int32_t> station;      // likewise, position along the line from `from` to `to`, in columns
+    std::vector<Real> volume;               // likewise, mm^3, rest volume of its particles (weigh_columns)
 
     /// Column of a rest position, -1 outside of the corridor.
     std::int32_t column(Real u, Real v) const;
@@ -48,6 +49,9 @@ struct LigamentMap
 /// @pre corridors are polygons of at least three corners; `from` and `to` name features of the problem
 LigamentMap ligament_map(const Problem& problem);
 
+/// Rest volume of every column; again whenever particles were split.
+void weigh_columns(const particles::Particles& particles, LigamentMap& map);
+
 /// What is written down when something happens.
 struct Observation
 {
@@ -59,7 +63,8 @@ struct Observation
 /// Update the state of every ligament: onset, first broken column, separation, each once, and the front: the share of
 /// stations along the ligament that have a broken column.
 /// @param ligaments  resized to the map if empty
-/// @cost one pass over all particles, about 2 ns each; meant for every history line
+/// @pre   weigh_columns
+/// @cost  a look at every particle's crack index; more only for particles with decohesion state
 void update_ligaments(const LigamentMap& map, const particles::Particles& particles, const Observation& now,
                       std::vector<LigamentState>& ligaments);
 

@@ -35,17 +35,32 @@ bool held(const Load& load, int axis)
            (load.kind == Load::Kind::pin && axis != load.axis);
 }
 
-/// Arm of a node about the pin's axis, at rest positions in the total formulation turned by the pin's angle.
-Vec3 arm(const Problem& problem, const Load& load, const LoadState& state, const Vec3& position)
+/// Where a pin's nodes are about its axis: at rest positions in the total formulation, turned by the pin's angle.
+struct Turn
 {
-    Vec3 r = position - load.centre;
-    if (problem.numerics.formulation == Formulation::updated) r -= state.displacement;
-    r[load.axis] = 0;
-    if (problem.numerics.formulation == Formulation::updated) return r;
+    Vec3 centre;
     Vec3 axis = Vec3::Zero();
-    axis[load.axis] = 1;
-    return std::cos(state.angle) * r + std::sin(state.angle) * axis.cross(r);
-}
+    Real cosine = 1, sine = 0;
+
+    Turn(const Problem& problem, const Load& load, const LoadState& state) : centre(load.centre)
+    {
+        axis[load.axis] = 1;
+        if (problem.numerics.formulation == Formulation::updated) {
+            centre += state.displacement;
+        } else {
+            cosine = std::cos(state.angle);
+            sine = std::sin(state.angle);
+        }
+    }
+
+    /// Arm of a node, normal to the axis.
+    Vec3 arm(const Vec3& position) const
+    {
+        Vec3 r = position - centre;
+        r -= r.dot(axis) * axis;
+        return cosine * r + sine * axis.cross(r);
+    }
+};
 
 Vec3 spin_velocity(const Load& load, Real spin, const Vec3& r)
 {
@@ -54,8 +69,27 @@ Vec3 spin_velocity(const Load& load, Real spin, const Vec3& r)
     return axis.cross(r);
 }
 
+/// What a held node has collected, wherever the scheme keeps it.
+struct Held
+{
+    Real mass;
+    std::array<Real, 3> momentum; // zero in the nodal scheme, where nothing is mapped
+    std::array<Real, 3> force;
+};
+
+Held held_at(const grid::Levels& levels, const NodeAddress& at)
+{
+    const auto leaf = static_cast<std::size_t>(at.leaf);
+    if (levels.sum.empty()) {
+        const grid::NodeForce& node = levels.forces(leaf)[at.node];
+        return {node.per_mass > 0 ? 1 / node.per_mass : Real(0), {}, node.force};
+    }
+    const grid::NodeSum& node = levels.sums(leaf)[at.node];
+    return {node.mass, node.momentum, node.force};
+}
+
 /// Velocity the transfer carries on from before the step: FLIP keeps the prescribed one, PIC and APIC the mapped one.
-Vec3 carried_velocity(const Prepared& prepared, const grid::NodeSum& sum, const Vec3& before)
+Vec3 carried_velocity(const Prepared& prepared, const Held& sum, const Vec3& before)
 {
     const Real mapped = prepared.options.transfer == Transfer::apic ? Real(1) : prepared.options.pic_fraction;
     Vec3 v;
@@ -64,7 +98,7 @@ Vec3 carried_velocity(const Prepared& prepared, const grid::NodeSum& sum, const 
     return v;
 }
 
-Vec3 total_force(const Problem& problem, const grid::NodeSum& sum)
+Vec3 total_force(const Problem& problem, const Held& sum)
 {
     return Vec3(sum.force[0], sum.force[1], sum.force[2]) + sum.mass * problem.gravity;
 }
@@ -75,10 +109,11 @@ Real new_spin(const Problem& problem, const Prepared& prepared, const Load& load
     Real angular_momentum = 0;
     Real inertia = 0;
     const Vec3 before = prescribed(load, time);
+    const Turn turn(problem, load, state);
     for (std::size_t n = 0; n < nodes.node.size(); ++n) {
-        const grid::NodeSum& sum = levels.sums(static_cast<std::size_t>(nodes.node[n].leaf))[nodes.node[n].node];
+        const Held sum = held_at(levels, nodes.node[n]);
         if (sum.mass <= 0) continue;
-        const Vec3 r = arm(problem, load, state, nodes.position[n]);
+        const Vec3 r = turn.arm(nodes.position[n]);
         const Vec3 v = carried_velocity(prepared, sum, before + spin_velocity(load, state.spin, r));
         const Vec3 momentum = sum.mass * (v - before) + dt * total_force(problem, sum);
         angular_momentum += r.cross(momentum)[load.axis];
@@ -95,6 +130,20 @@ Real ramp_value(const Ramp& ramp, Real time)
     const Real s = time / ramp.time;
     if (ramp.kind == Ramp::Kind::linear) return s;
     return s * s * s * (10 - 15 * s + 6 * s * s);
+}
+
+void keep_heavy_nodes(const grid::Levels& levels, std::vector<LoadNodes>& nodes)
+{
+    for (LoadNodes& held : nodes) {
+        LoadNodes heavy;
+        heavy.shift = held.shift;
+        for (std::size_t n = 0; n < held.node.size(); ++n) {
+            if (!(held_at(levels, held.node[n]).mass > 0)) continue;
+            heavy.node.push_back(held.node[n]);
+            heavy.position.push_back(held.position[n]);
+        }
+        held = std::move(heavy);
+    }
 }
 
 void find_load_nodes(const Problem& problem, const grid::Levels& levels, const std::vector<LoadState>& loads,
@@ -144,18 +193,19 @@ void apply_loads(const Problem& problem, const Prepared& prepared, const std::ve
         const Real spin_before = state.spin;
         if (load.kind == Load::Kind::pin)
             state.spin = new_spin(problem, prepared, load, state, nodes[i], time, dt, levels);
+        const Turn turn(problem, load, state);
         Vec3 impulse = Vec3::Zero();
         Real held_mass = 0;
         for (std::size_t n = 0; n < nodes[i].node.size(); ++n) {
             const NodeAddress at = nodes[i].node[n];
-            const grid::NodeSum& sum = levels.sums(static_cast<std::size_t>(at.leaf))[at.node];
+            const Held sum = held_at(levels, at);
             if (sum.mass <= 0) continue;
             held_mass += sum.mass;
             grid::NodeMotion& motion = levels.motions(static_cast<std::size_t>(at.leaf))[at.node];
             Vec3 old = before;
             Vec3 fresh = after;
             if (load.kind == Load::Kind::pin) {
-                const Vec3 r = arm(problem, load, state, nodes[i].position[n]);
+                const Vec3 r = turn.arm(nodes[i].position[n]);
                 old += spin_velocity(load, spin_before, r);
                 fresh += spin_velocity(load, state.spin, r);
             }
@@ -163,8 +213,12 @@ void apply_loads(const Problem& problem, const Prepared& prepared, const std::ve
                 sum.mass * (fresh - carried_velocity(prepared, sum, old)) - dt * total_force(problem, sum);
             for (int a = 0; a < 3; ++a) {
                 if (!held(load, a)) continue;
-                motion.velocity[static_cast<std::size_t>(a)] = fresh[a];
-                motion.change[static_cast<std::size_t>(a)] = fresh[a] - old[a];
+                const auto axis = static_cast<std::size_t>(a);
+                if (prepared.options.transfer == Transfer::nodal)
+                    motion.change[axis] += dt * (fresh[a] - motion.velocity[axis]); // the displacement
+                else
+                    motion.change[axis] = fresh[a] - old[a];
+                motion.velocity[axis] = fresh[a];
                 impulse[a] += given[a];
             }
         }

@@ -31,6 +31,10 @@ Real ramp_value(const Ramp& ramp, Real time);
 void find_load_nodes(const Problem& problem, const grid::Levels& levels, const std::vector<LoadState>& loads,
                      std::vector<LoadNodes>& nodes);
 
+/// Forget the nodes without mass: the nodal scheme knows that they never get any.
+/// @pre  masses assembled and restricted
+void keep_heavy_nodes(const grid::Levels& levels, std::vector<LoadNodes>& nodes);
+
 /// True if some region has moved by a quantum since its nodes were found.
 bool load_nodes_outdated(const Problem& problem, const std::vector<LoadState>& loads,
                          const std::vector<LoadNodes>& nodes);

@@ -2,6 +2,7 @@
 
 #include "solver/audit.h"
 #include "solver/measures.h"
+#include "solver/nodal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +11,14 @@ namespace solver
 {
 namespace
 {
-Real mean_displacement(const particles::Particles& particles, const std::vector<std::uint32_t>& places,
-                       std::size_t axis)
+Real mean_displacement(const Problem& problem, const State& state, const std::vector<std::uint32_t>& places, int axis)
 {
+    const particles::Particles& particles = state.particles;
+    const auto column = static_cast<std::size_t>(axis);
     Real sum = 0;
-    for (const std::uint32_t p : places) sum += particles.position[axis][p] - particles.rest_position[axis][p];
+    for (const std::uint32_t p : places)
+        sum += nodal(problem) ? transfer::displacement_of(particles, state.levels, p)[axis]
+                              : particles.position[column][p] - particles.rest_position[column][p];
     return places.empty() ? Real(0) : sum / static_cast<Real>(places.size());
 }
 
@@ -32,9 +36,8 @@ Real mean_force(const Problem& problem, const State& state, const std::string& n
 Real gauge_opening(const Problem& problem, const State& state, const Derived& derived)
 {
     if (!problem.gauge) return 0;
-    const auto axis = static_cast<std::size_t>(problem.gauge->axis);
-    return mean_displacement(state.particles, derived.gauge_upper, axis) -
-           mean_displacement(state.particles, derived.gauge_lower, axis);
+    return mean_displacement(problem, state, derived.gauge_upper, problem.gauge->axis) -
+           mean_displacement(problem, state, derived.gauge_lower, problem.gauge->axis);
 }
 
 std::vector<std::uint64_t> particles_per_level(const State& state)

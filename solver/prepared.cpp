@@ -32,6 +32,7 @@ Prepared prepare(const Problem& problem)
     prepared.options.formulation = problem.numerics.formulation;
     prepared.options.transfer = problem.numerics.transfer;
     prepared.options.stress_update = problem.numerics.stress_update;
+    prepared.options.precision = problem.numerics.precision;
     prepared.options.pic_fraction = problem.numerics.pic_fraction;
     for (const SymmetryPlane& plane : problem.symmetry) prepared.walls.push_back(wall_of(plane, problem.grid));
     Real density = 0;

@@ -22,6 +22,7 @@ namespace solver
 {
 using transfer::Basis;
 using transfer::Formulation;
+using transfer::Precision;
 using transfer::StressUpdate;
 using transfer::Transfer;
 
@@ -52,6 +53,7 @@ struct Numerics
     Formulation formulation = Formulation::total;
     StressUpdate stress_update = StressUpdate::usl;
     Transfer transfer = Transfer::flip;
+    Precision precision = Precision::f64;
     Real pic_fraction = 0;    // 1, share of PIC in the FLIP velocity update
     Real cfl = 0.5;           // 1, dt = cfl * min h / c_d
     Real mass_cutoff = 1e-10; // 1, nodes lighter than this share of a full cell's mass are inactive
@@ -131,6 +133,8 @@ struct Output
     OutputEvery particles;
     std::vector<std::string> particle_fields; // names of io/particle_fields.h
     std::string particle_precision = "f32";   // or "f64"
+    OutputEvery grid;
+    std::vector<std::string> grid_fields; // names of io/grid_file.h
     OutputEvery vdb;
     std::vector<std::string> vdb_grids; // density, damage, eq_plastic_strain, velocity
     std::string vdb_preset = "blender"; // or "houdini"

@@ -37,9 +37,20 @@ Real signal_speed(const Prepared& prepared, const State& state, std::size_t p)
     if (!std::isfinite(squeeze)) not_finite(state, p);
     return prepared.wave_speed * std::max(Real(1), squeeze);
 }
-} // namespace
+/// c_d s of every leaf, from nodes that carry the motion.
+std::vector<Real> fastest_on_lattice(const Prepared& prepared, const State& state)
+{
+    std::vector<transfer::LatticeSurvey> survey;
+    transfer::survey_lattice(prepared.laws, state.lattice, state.particles, state.levels, survey);
+    std::vector<Real> fastest(survey.size(), 0);
+    for (std::size_t n = 0; n < survey.size(); ++n) {
+        if (!std::isfinite(survey[n].squeeze)) not_finite(state, state.levels.cell_start[n * grid::leaf_cells]);
+        fastest[n] = prepared.wave_speed * std::max(Real(1), survey[n].squeeze);
+    }
+    return fastest;
+}
 
-Real stable_time_step(const Problem& problem, const Prepared& prepared, const State& state)
+std::vector<Real> fastest_of_particles(const Prepared& prepared, const State& state)
 {
     const grid::Levels& levels = state.levels;
     std::vector<Real> fastest(levels.leaves.size(), 0);
@@ -48,6 +59,16 @@ Real stable_time_step(const Problem& problem, const Prepared& prepared, const St
              p < levels.cell_start[(n + 1) * grid::leaf_cells]; ++p)
             fastest[n] = std::max(fastest[n], signal_speed(prepared, state, p));
     });
+    return fastest;
+}
+} // namespace
+
+Real stable_time_step(const Problem& problem, const Prepared& prepared, const State& state)
+{
+    const grid::Levels& levels = state.levels;
+    const std::vector<Real> fastest = prepared.options.transfer == Transfer::nodal
+                                          ? fastest_on_lattice(prepared, state)
+                                          : fastest_of_particles(prepared, state);
     const Real finest = levels.spacing(levels.count - 1);
     Real dt = problem.numerics.cfl * finest / prepared.wave_speed;
     for (std::size_t n = 0; n < fastest.size(); ++n)

@@ -3,6 +3,7 @@
 
 #include "grid/levels.h"
 #include "particles/particles.h"
+#include "transfer/lattice.h"
 #include "transfer/passes.h"
 
 #include <cstdint>
@@ -74,6 +75,7 @@ struct State
     grid::Levels levels;
     Clock clock;
     transfer::Strays strays;
+    transfer::Lattice lattice; // nodal scheme only: holds stress and plastic strain between outputs
     std::vector<LoadState> loads;
     std::vector<LigamentState> ligaments;
     std::vector<LeafWork> leaf_work;                     // [leaf]

@@ -3,7 +3,9 @@
 #include "grid/halo.h"
 #include "grid/interface.h"
 #include "grid/momentum.h"
+#include "grid/nodal.h"
 #include "solver/follow.h"
+#include "solver/nodal.h"
 #include "solver/stable_time_step.h"
 
 namespace solver
@@ -82,8 +84,24 @@ void step_musl(const Problem& problem, const Prepared& prepared, State& state, D
     follow_particles(problem, prepared, state, derived);
 }
 
+void step_nodal(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
+{
+    choose_dt(problem, prepared, state);
+    const transfer::PassOptions options = pass_options(prepared, state.clock);
+
+    grid::advance_nodes(prepared.walls, problem.gravity, state.clock.dt, state.levels);
+    apply_loads(problem, prepared, derived.load_nodes, state.clock.time, state.clock.dt, state.levels, state.loads);
+    grid::prolong_motion(state.levels);
+    grid::fill_motion_halos(state.levels);
+
+    transfer::advance_lattice(options, prepared.laws, state.lattice, state.particles, state.levels, state.leaf_work);
+
+    tick(state.clock);
+}
+
 void advance(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
 {
+    if (nodal(problem)) return step_nodal(problem, prepared, state, derived);
     problem.numerics.stress_update == StressUpdate::musl ? step_musl(problem, prepared, state, derived)
                                                          : step(problem, prepared, state, derived);
 }

@@ -44,6 +44,9 @@ void step(const Problem& problem, const Prepared& prepared, State& state, Derive
 /// The same with the stress from velocities mapped again from the updated particles (MUSL).
 void step_musl(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
 
+/// The same with velocity and displacement kept on the nodes: only forces go there, only gradients come back.
+void step_nodal(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
+
 /// The step the case asks for.
 void advance(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
 } // namespace solver

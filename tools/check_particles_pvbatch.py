@@ -6,23 +6,12 @@ Debian's pvbatch needs a display, hence xvfb-run. Needs: paraview python3-paravi
 Checks the true times of the series, the number of points and vertex cells, and name, components and range of every
 field of every frame. Exit 0: all good; 1: the first problem is printed.
 """
-import json
-import pathlib
 import sys
 
 import h5py
 import numpy
 from paraview import servermanager, simple
-
-
-def require(condition, text):
-    if not condition:
-        print(text, flush=True)
-        sys.exit(1)
-
-
-def close(a, b):
-    return numpy.allclose(a, b, rtol=1e-5, atol=1e-6 * (1 + abs(numpy.array(b)).max()))
+from pvbatch_series import close, open_series, require
 
 
 def check_frame(reader, path, time):
@@ -62,17 +51,9 @@ def draw(reader, picture):
 
 
 def main():
-    folder = pathlib.Path(sys.argv[1])
-    series = next(folder.glob("**/particles.hdf.series"))
-    entries = json.loads(series.read_text())["files"]
-    reader = simple.OpenDataFile(str(series))
-    require(reader is not None, f"{series}: no reader found")
-    simple.UpdatePipeline(proxy=reader)
-    times = reader.TimestepValues
-    times = list(times) if hasattr(times, "__len__") else [times]
-    require(numpy.allclose(times, [entry["time"] for entry in entries]), f"{series}: ParaView sees the times {times}")
-    for entry in entries:
-        check_frame(reader, series.parent / entry["name"], entry["time"])
+    reader, entries = open_series(sys.argv[1], "particles.hdf.series")
+    for path, time in entries:
+        check_frame(reader, path, time)
     if len(sys.argv) > 2:
         draw(reader, sys.argv[2])
 

@@ -6,6 +6,7 @@
 #include "material/onset.h"
 #include "material/rotation.h"
 #include "material/von_mises.h"
+#include "particles/tensors.h"
 #include "transfer/chunk.h"
 #include "transfer/passes.h"
 #include "transfer/separate_lanes.h"
@@ -182,9 +183,9 @@ template <Formulation F, Transfer T, StressUpdate S>
         return;
     }
     if (!particles.cracks.empty()) {
-        const SeparationInput input{options, laws,     per_spacing, begin,      count,   k.here,
+        const SeparatingChunk chunk{options, laws,     per_spacing, begin,      count,   k.here,
                                     strain,  rotation, old,         old_strain, k.volume};
-        outcome.work.decohesion += separate_lanes(input, particles, plastic_work);
+        outcome.work.decohesion += separate_lanes(chunk, particles, plastic_work);
     }
     outcome.work.plastic += core::sum(plastic_work);
     k.may_start = k.here & material::may_start(step.stress, law.tensile_onset, law.shear_onset);
@@ -239,7 +240,10 @@ void advance_cell(const PassOptions& options, const LawTable& laws, const CellFr
         if (near_onset) {
             core::Mat<Real> gradient[group];
             detail::unpack_gradients(k, last - first, gradient);
-            start_cracks(options, laws, particles, first, last, Real(1) / frame.per_spacing, gradient, outcome.onset);
+            core::Sym<Real> stress[group];
+            for (std::size_t p = first; p < last; ++p) stress[p - first] = particles::stress_of(particles, p);
+            start_cracks(options, laws, particles, first, last, Real(1) / frame.per_spacing, stress, gradient,
+                         outcome.onset);
         }
     }
 }

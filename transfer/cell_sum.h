@@ -93,25 +93,6 @@ template <class Rate>
         sum.momentum[a] += NodeLanes(rate(a, 0)) * dx + NodeLanes(rate(a, 1)) * dy + NodeLanes(rate(a, 2)) * dz;
 }
 
-/// Eight vectors of eight: rows become columns, in three rounds of pairwise shuffles.
-[[gnu::always_inline]] inline void transpose(NodeLanes (&r)[8])
-{
-    NodeLanes::Lanes pair[8], quad[8];
-    for (int i = 0; i < 8; i += 2) {
-        pair[i] = __builtin_shufflevector(r[i].v, r[i + 1].v, 0, 8, 2, 10, 4, 12, 6, 14);
-        pair[i + 1] = __builtin_shufflevector(r[i].v, r[i + 1].v, 1, 9, 3, 11, 5, 13, 7, 15);
-    }
-    for (int half = 0; half < 8; half += 4)
-        for (int i = half; i < half + 2; ++i) {
-            quad[i] = __builtin_shufflevector(pair[i], pair[i + 2], 0, 1, 8, 9, 4, 5, 12, 13);
-            quad[i + 2] = __builtin_shufflevector(pair[i], pair[i + 2], 2, 3, 10, 11, 6, 7, 14, 15);
-        }
-    for (int i = 0; i < 4; ++i) {
-        r[i].v = __builtin_shufflevector(quad[i], quad[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
-        r[i + 4].v = __builtin_shufflevector(quad[i], quad[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
-    }
-}
-
 /// Add the cell's sums to its nodes.
 /// @param per_spacing  1 / spacing
 /// @param node         the cell's lower-corner node in a sum tile
@@ -127,7 +108,7 @@ template <class Rate>
     for (int a = 0; a < 3; ++a)
         line[4 + a] = sum.force[a][0] * sign_x + sum.force[a][1] * sign_y + sum.force[a][2] * sign_z;
     line[7] = NodeLanes(Real(0));
-    transpose(line);
+    core::transpose(line);
     for (int n = 0; n < 8; ++n) {
         Real* target = &node[grid::tile_index(n >> 2, n >> 1 & 1, n & 1)].mass;
         (NodeLanes::load(target) + line[n]).store(target);

@@ -23,6 +23,7 @@ struct PassOptions
     Formulation formulation = Formulation::total;
     Transfer transfer = Transfer::flip;
     StressUpdate stress_update = StressUpdate::usl;
+    Precision precision = Precision::f64;
     Real pic_fraction = 0; // 1
     Real dt = 0;           // ms
     Real time = 0;         // ms, at the end of the step

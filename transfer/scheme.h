@@ -22,9 +22,16 @@ enum class StressUpdate
     musl, // from nodal velocities mapped again from the updated particles
 };
 
+enum class Precision
+{
+    f64,
+    mixed, // nodes in double, state and arithmetic of the particles in single precision; nodal scheme
+};
+
 enum class Transfer
 {
     flip, // FLIP blended with `pic_fraction` of PIC
     apic,
+    nodal, // the nodes keep velocity and displacement; total formulation (transfer/lattice.h)
 };
 } // namespace transfer

@@ -45,6 +45,25 @@ TEST(Forecast, counts_the_particles_of_a_block)
     EXPECT_EQ(forecast.steps, std::ceil(1 / forecast.dt));
 }
 
+TEST(Forecast, counts_the_bytes_of_grid_frames)
+{
+    solver::Problem problem;
+    problem.grid.cell = 1;
+    problem.grid.levels = 2;
+    problem.materials.push_back({"steel", {7.81e-3, 195e3, 0.3}, {}, {}, true});
+    problem.bodies.push_back({"block", geometry::box(Vec3(0, 0, 0), Vec3(20, 4, 4)), 0, Vec3::Zero()});
+    problem.zones.push_back({"end", geometry::box(Vec3(6, -1, -1), Vec3(10, 5, 5)), 1, 0});
+    problem.end.time = 1;
+    EXPECT_EQ(app::forecast(problem).grid_bytes, 0);
+    problem.output.grid.time = 0.25;
+    problem.output.grid_fields = {"density", "velocity"};
+    const app::Forecast forecast = app::forecast(problem);
+    EXPECT_EQ(forecast.grid_frames, 5); // four intervals and the end
+    // Fine cells, coarse cells, and the 4 x 4 x 4 coarse cells that the fine ones fill.
+    const Real cells = 4 * 4 * 4 * 8 + 16 * 4 * 4 + 4 * 4 * 4;
+    EXPECT_DOUBLE_EQ(forecast.grid_bytes, 5 * cells * (1 + 4 + 12));
+}
+
 TEST(Forecast, map_shows_levels_and_voids)
 {
     solver::Problem problem;

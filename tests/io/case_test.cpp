@@ -1,7 +1,9 @@
 #include "io/case.h"
 
 #include "case_file.h"
+#include "io/grid_file.h"
 #include "io/keys.h"
+#include "io/particle_fields.h"
 #include "io/vdb_file.h"
 
 #include <algorithm>
@@ -155,6 +157,7 @@ void expect_equal(const solver::Problem& a, const solver::Problem& b)
     EXPECT_EQ(a.numerics.formulation, b.numerics.formulation);
     EXPECT_EQ(a.numerics.stress_update, b.numerics.stress_update);
     EXPECT_EQ(a.numerics.transfer, b.numerics.transfer);
+    EXPECT_EQ(a.numerics.precision, b.numerics.precision);
     EXPECT_EQ(a.numerics.pic_fraction, b.numerics.pic_fraction);
     EXPECT_EQ(a.numerics.cfl, b.numerics.cfl);
     EXPECT_EQ(a.numerics.mass_cutoff, b.numerics.mass_cutoff);
@@ -164,9 +167,11 @@ void expect_equal(const solver::Problem& a, const solver::Problem& b)
     expect_equal_measures(a, b);
     expect_equal_every(a.output.history, b.output.history);
     expect_equal_every(a.output.particles, b.output.particles);
+    expect_equal_every(a.output.grid, b.output.grid);
     expect_equal_every(a.output.vdb, b.output.vdb);
     EXPECT_EQ(a.output.particle_fields, b.output.particle_fields);
     EXPECT_EQ(a.output.particle_precision, b.output.particle_precision);
+    EXPECT_EQ(a.output.grid_fields, b.output.grid_fields);
     EXPECT_EQ(a.output.vdb_grids, b.output.vdb_grids);
     EXPECT_EQ(a.output.vdb_preset, b.output.vdb_preset);
     EXPECT_EQ(a.output.vdb_scale, b.output.vdb_scale);
@@ -253,6 +258,7 @@ separated = false
 [output]
 history = { every_steps = 7 }
 particles = { every_steps = 70, fields = ["damage"], precision = "f64" }
+grid = { every_steps = 90, fields = ["stress", "density"] }
 vdb = { every_time = 0.1, grids = ["velocity"], preset = "houdini", scale = 0.1 }
 checkpoint = { every_wall = "20 min", keep = 3 }
 [[reference]]
@@ -306,9 +312,39 @@ TEST_F(Case, values_arrive_in_mm_g_ms)
     EXPECT_FALSE(problem.loads.at(1).velocity[1].has_value());
     EXPECT_EQ(problem.loads.at(1).axis, 0);
     EXPECT_EQ(problem.output.history.steps, 7);
+    EXPECT_EQ(problem.output.grid.steps, 90);
+    EXPECT_EQ(problem.output.grid_fields, (std::vector<std::string>{"stress", "density"}));
     EXPECT_EQ(problem.output.vdb_preset, "houdini");
     EXPECT_NEAR(problem.output.checkpoint_every_wall, 1200, 1e-9);
     EXPECT_NEAR(problem.references.at(0).measure.at("peak_force_N"), 8400, 1e-9);
+}
+
+// Nodal wherever it can be; what it cannot do falls back to flip.
+TEST_F(Case, default_transfer_is_nodal_on_the_lattice_of_the_total_formulation)
+{
+    const auto transfer = [&](const std::vector<std::string>& overrides) {
+        return io::read_case(write(valid_case), overrides).numerics.transfer;
+    };
+    using enum solver::Transfer;
+    EXPECT_EQ(transfer({}), nodal);
+    EXPECT_EQ(transfer({"numerics.stress_update=usl", "grid.particles_per_cell=8"}), nodal);
+    EXPECT_EQ(transfer({"numerics.formulation=updated"}), flip);
+    EXPECT_EQ(transfer({"numerics.formulation=updated", "numerics.stress_update=usl"}), flip);
+    EXPECT_EQ(transfer({"numerics.stress_update=musl"}), flip);
+    EXPECT_EQ(transfer({"grid.particles_per_cell=27"}), flip);
+    EXPECT_EQ(transfer({"numerics.pic_fraction=0.1"}), flip);
+    EXPECT_EQ(transfer({"numerics.transfer=flip"}), flip);
+    EXPECT_EQ(transfer({"numerics.transfer=apic"}), apic);
+}
+
+TEST_F(Case, precision_of_particles_is_double_unless_asked)
+{
+    EXPECT_EQ(io::read_case(write(valid_case)).numerics.precision, solver::Precision::f64);
+    EXPECT_EQ(io::read_case(write(valid_case), {"numerics.precision=mixed"}).numerics.precision,
+              solver::Precision::mixed);
+    const std::string resolved = io::resolved_toml(write(valid_case), {"numerics.precision=mixed"});
+    EXPECT_NE(resolved.find("transfer = \"nodal\""), std::string::npos);
+    EXPECT_EQ(io::read_case(write(resolved)).numerics.precision, solver::Precision::mixed);
 }
 
 TEST_F(Case, paper_preset)
@@ -433,6 +469,13 @@ TEST(Keys, names_are_unique_and_explained)
         EXPECT_EQ(key.presence == io::Presence::defaulted, !key.fallback.empty()) << name;
         EXPECT_EQ(key.type == io::Type::choice && key.choices.empty(), false) << name;
     }
+}
+
+TEST(Keys, choices_of_grid_files_are_those_of_the_writer)
+{
+    const std::vector<std::string> fields = io::choices_of(io::key_of("output.grid", "fields"));
+    EXPECT_TRUE(std::equal(fields.begin(), fields.end(), io::grid_field_names.begin(), io::grid_field_names.end()));
+    for (const std::string& name : fields) EXPECT_TRUE(name == "density" || io::find_particle_field(name)) << name;
 }
 
 TEST(Keys, choices_of_volumes_are_those_of_the_writer)

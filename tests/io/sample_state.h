@@ -113,4 +113,22 @@ inline solver::State state()
     state.gauge_lower = {8};
     return state;
 }
+
+/// Three levels side by side along x: four layers of a coarse leaf (h = 0.25 mm), four of a middle one, seven of a fine
+/// one, so that the last layer of the fine one fills half of a middle cell. Everything is moved by `shift` coarse cells
+/// along x, a multiple of 8; the particles are intact.
+inline solver::State three_levels(int shift = 0)
+{
+    solver::State state;
+    state.levels.spacing0 = 0.25;
+    state.levels.count = 3;
+    state.levels.origin = Vec3(10, 20, 30);
+    add_leaf(0, Index3(shift, 0, 0), 4, 2, state);
+    add_leaf(1, Index3(2 * shift + 8, 0, 0), 4, 2, state);
+    add_leaf(2, Index3(4 * shift + 24, 0, 0), 7, 2, state);
+    state.levels.cell_start.push_back(static_cast<std::uint32_t>(state.particles.size()));
+    state.levels.level_start = {0, 1, 2, 3};
+    state.clock = {400, Real(0.1) / 3, 1.25e-5};
+    return state;
+}
 } // namespace sample

@@ -1,4 +1,5 @@
 /// The programs our users open results with read them: pyopenvdb and ParaView, where they are installed.
+#include "io/grid_file.h"
 #include "io/particle_fields.h"
 #include "io/particle_file.h"
 #include "io/vdb_file.h"
@@ -32,8 +33,27 @@ void write_frames(const std::filesystem::path& folder)
     }
 }
 
+/// A frame of two levels and one of three.
+void write_grid_frames(const std::filesystem::path& folder)
+{
+    io::GridFileOptions options{.version = "0.1.0"};
+    options.fields.assign(io::grid_field_names.begin(), io::grid_field_names.end());
+    int frame = 0;
+    for (solver::State state : {sample::state(), sample::three_levels(-16)}) {
+        state.clock.step = 100 * ++frame;
+        state.clock.time = 0.01 * frame * frame;
+        io::write_grid_frame(folder / "grid", state.particles, state.levels, state.clock, options);
+    }
+}
+
 const std::string debian_python = "/usr/bin/python3"; // the modules are Debian packages
 const std::string tools = std::string(CLEAVE_SOURCE_DIR) + "/tools/";
+
+/// Is there a ParaView that draws without a screen, and what its checks need?
+bool paraview_is_there()
+{
+    return succeeds("command -v pvbatch xvfb-run >/dev/null && " + debian_python + " -c 'import h5py' 2>/dev/null");
+}
 } // namespace
 
 TEST(Viewers, PyopenvdbReadsAllGridsOfAVolume)
@@ -47,9 +67,16 @@ TEST(Viewers, PyopenvdbReadsAllGridsOfAVolume)
 
 TEST(Viewers, SlowParaviewShowsWhatTheFilesHold)
 {
-    if (!succeeds("command -v pvbatch xvfb-run >/dev/null && " + debian_python + " -c 'import h5py' 2>/dev/null"))
-        GTEST_SKIP() << "paraview, xvfb or python3-h5py is not installed";
+    if (!paraview_is_there()) GTEST_SKIP() << "paraview, xvfb or python3-h5py is not installed";
     const faults::Folder folder;
     write_frames(folder.path());
     EXPECT_TRUE(succeeds("xvfb-run -a pvbatch " + tools + "check_particles_pvbatch.py " + folder.path().string()));
+}
+
+TEST(Viewers, SlowParaviewShowsTheNestedGrid)
+{
+    if (!paraview_is_there()) GTEST_SKIP() << "paraview, xvfb or python3-h5py is not installed";
+    const faults::Folder folder;
+    write_grid_frames(folder.path());
+    EXPECT_TRUE(succeeds("xvfb-run -a pvbatch " + tools + "check_grid_pvbatch.py " + folder.path().string()));
 }

@@ -74,6 +74,7 @@ std::vector<std::string> tiny_preview(const fs::path& directory, const std::vect
                                    "--set", "grid.cell=1.0",
                                    "--set", "end.time=\"0.015 ms\"",
                                    "--set", "output.particles.every_time=\"0.005 ms\"",
+                                   "--set", "output.grid.every_time=\"0.005 ms\"",
                                    "--set", "output.vdb.every_time=\"0.005 ms\""};
     words.insert(words.end(), more.begin(), more.end());
     return words;
@@ -111,15 +112,17 @@ TEST_F(Program, a_preview_run_writes_every_file)
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     for (const char* file : {"history.csv", "log.txt", "resolved.toml", "run.json"})
         EXPECT_GT(test::contents(below("out") / file).size(), 50U) << file;
-    int particles = 0, volumes = 0, series = 0;
+    int particles = 0, grids = 0, volumes = 0, series = 0;
     for (const std::string& file : test::files_below(below("out"))) {
         particles += file.rfind("particles/", 0) == 0 && fs::path(file).extension() == ".hdf" ? 1 : 0;
+        grids += file.rfind("grid/", 0) == 0 && fs::path(file).extension() == ".hdf" ? 1 : 0;
         series += fs::path(file).extension() == ".series" ? 1 : 0;
         volumes += fs::path(file).extension() == ".vdb" ? 1 : 0;
     }
     EXPECT_GE(particles, 3);
+    EXPECT_GE(grids, 3);
     EXPECT_GE(volumes, 3);
-    EXPECT_EQ(series, 1);
+    EXPECT_EQ(series, 2);
     EXPECT_NE(test::contents(below("out") / "run.json").find("peak_force_N"), std::string::npos);
 
     EXPECT_EQ(test::run({"metric", below("out").string()}).exit_code, 0);
@@ -146,11 +149,36 @@ TEST_F(Program, a_run_in_three_parts_leaves_the_files_of_one)
     EXPECT_EQ(test::contents(below("one") / "history.csv"), test::contents(below("parts") / "history.csv"));
     int compared = 0;
     for (const std::string& file : test::files_below(below("one"))) {
-        if (file.rfind("particles/", 0) != 0) continue;
+        if (file.rfind("particles/", 0) != 0 && file.rfind("grid/", 0) != 0) continue;
         EXPECT_TRUE(test::contents(below("one") / file) == test::contents(below("parts") / file)) << file;
         ++compared;
     }
-    EXPECT_GE(compared, 3);
+    EXPECT_GE(compared, 8); // frames and series of both
+}
+
+// Five parts of one step, then the rest; the first frames are due in the third step, and not again in the fourth.
+TEST_F(Program, a_resumed_run_writes_no_frame_twice)
+{
+    const std::vector<std::string> brief{"--set", "end.time=\"0.001 ms\"",
+                                         "--set", "output.particles.every_time=\"1e-4 ms\"",
+                                         "--set", "output.grid.every_time=\"1e-4 ms\"",
+                                         "--set", "output.vdb.every_time=\"1e-4 ms\""};
+    ASSERT_EQ(test::run(tiny_preview(below("one"), brief)).exit_code, 0);
+    std::vector<std::string> resumed = brief;
+    resumed.insert(resumed.end(), {"--resume"});
+    std::vector<std::string> one_step = resumed;
+    one_step.insert(one_step.end(), {"--walltime", "0"});
+    for (int part = 0; part < 5; ++part) ASSERT_EQ(test::run(tiny_preview(below("parts"), one_step)).exit_code, 75);
+    ASSERT_EQ(test::run(tiny_preview(below("parts"), resumed)).exit_code, 0);
+    const auto frames = [&](const std::string& run) {
+        std::vector<std::string> files = test::files_below(below(run));
+        std::erase_if(files, [](const std::string& f) { return f.find('/') == f.npos || f.rfind("check", 0) == 0; });
+        return files;
+    };
+    EXPECT_GE(frames("one").size(), 3U * 8);
+    EXPECT_EQ(frames("one"), frames("parts"));
+    for (const char* series : {"particles/particles.hdf.series", "grid/grid.hdf.series"})
+        EXPECT_EQ(test::contents(below("one") / series), test::contents(below("parts") / series));
 }
 
 TEST_F(Program, a_termination_signal_stops_it_with_a_checkpoint)

@@ -70,13 +70,20 @@ auto strip(Real from, Real to)
 {
     return [=](const Vec3& x) { return x[0] > from && x[0] < to && x[1] > 2 && x[1] < 2 + h; };
 }
+
+LigamentMap map_of(const Problem& problem, const particles::Particles& particles)
+{
+    LigamentMap map = ligament_map(problem);
+    weigh_columns(particles, map);
+    return map;
+}
 } // namespace
 
 TEST(Ligaments, nothing_happens_without_damage)
 {
     const Problem problem = plate();
     std::vector<LigamentState> states;
-    update_ligaments(ligament_map(problem), particles_of(problem), {1, 2, 3}, states);
+    update_ligaments(map_of(problem, particles_of(problem)), particles_of(problem), {1, 2, 3}, states);
     ASSERT_EQ(states.size(), 2u);
     for (const LigamentState& state : states) {
         EXPECT_LT(state.onset_time, 0);
@@ -89,7 +96,7 @@ TEST(Ligaments, nothing_happens_without_damage)
 TEST(Ligaments, events_come_one_after_the_other_and_are_noted_once)
 {
     const Problem problem = plate();
-    const LigamentMap map = ligament_map(problem);
+    const LigamentMap map = map_of(problem, particles_of(problem));
     particles::Particles particles = particles_of(problem);
     std::vector<LigamentState> states;
 
@@ -126,7 +133,7 @@ TEST(Ligaments, events_come_one_after_the_other_and_are_noted_once)
 TEST(Ligaments, one_intact_tenth_is_allowed_more_is_not)
 {
     const Problem problem = plate();
-    const LigamentMap map = ligament_map(problem);
+    const LigamentMap map = map_of(problem, particles_of(problem));
     for (const int intact_per_column : {3, 4}) { // of 32 particles
         particles::Particles particles = particles_of(problem);
         crack(particles, 1, strip(2, 2 + h));
@@ -142,7 +149,7 @@ TEST(Ligaments, one_intact_tenth_is_allowed_more_is_not)
 TEST(Ligaments, a_gap_separates_and_a_corner_joins)
 {
     const Problem problem = plate();
-    const LigamentMap map = ligament_map(problem);
+    const LigamentMap map = map_of(problem, particles_of(problem));
     const auto through = [&](const auto& second) {
         particles::Particles particles = particles_of(problem);
         crack(particles, 1, strip(1.5, 3));
@@ -163,7 +170,7 @@ TEST(Ligaments, a_crack_outside_of_the_corridor_does_not_count)
     particles::Particles particles = particles_of(problem);
     crack(particles, 1, [](const Vec3& x) { return x[1] > 3 + h; });
     std::vector<LigamentState> states;
-    update_ligaments(ligament_map(problem), particles, {1, 0, 0}, states);
+    update_ligaments(map_of(problem, particles), particles, {1, 0, 0}, states);
     EXPECT_LT(states[0].onset_time, 0);
 }
 
@@ -171,7 +178,7 @@ TEST(Ligaments, the_corridor_is_the_polygon_and_not_its_box)
 {
     Problem problem = plate();
     problem.ligaments[0].corridor = {{1, 1}, {5, 1}, {5, 3}}; // the triangle below the diagonal
-    const LigamentMap map = ligament_map(problem);
+    const LigamentMap map = map_of(problem, particles_of(problem));
     for (const bool below : {false, true}) {
         particles::Particles particles = particles_of(problem);
         crack(particles, 1, [&](const Vec3& x) {
@@ -187,7 +194,7 @@ TEST(Ligaments, the_corridor_is_the_polygon_and_not_its_box)
 TEST(Ligaments, a_crack_must_reach_both_features)
 {
     const Problem problem = plate();
-    const LigamentMap map = ligament_map(problem);
+    const LigamentMap map = map_of(problem, particles_of(problem));
     for (const Real start : {1.5, 1.75, 2.0, 2.25}) { // 0.6, 1.54, 2.5 and 3.5 columns away from A
         particles::Particles particles = particles_of(problem);
         crack(particles, 1, strip(start, 4.5));
@@ -200,7 +207,7 @@ TEST(Ligaments, a_crack_must_reach_both_features)
 TEST(Ligaments, the_order_of_particles_does_not_matter)
 {
     const Problem problem = plate();
-    const LigamentMap map = ligament_map(problem);
+    const LigamentMap map = map_of(problem, particles_of(problem));
     std::array<LigamentState, 2> result;
     for (const bool reversed : {false, true}) {
         particles::Particles particles = particles_of(problem, reversed);
@@ -226,7 +233,7 @@ TEST(Ligaments, thickness_may_be_any_axis)
     crack(particles, 1, strip(1.5, 4.5));
     std::rotate(particles.rest_position.begin(), particles.rest_position.begin() + 2, particles.rest_position.end());
     std::vector<LigamentState> states;
-    update_ligaments(ligament_map(problem), particles, {1, 0, 0}, states);
+    update_ligaments(map_of(problem, particles), particles, {1, 0, 0}, states);
     EXPECT_EQ(states[0].through_time, 1);
     EXPECT_NEAR(states[0].front, 12.0 / 16, 1e-12);
 }

@@ -1,0 +1,243 @@
+#include "core/parallel.h"
+#include "material/elastic.h"
+#include "material/onset.h"
+#include "material/rotation.h"
+#include "material/von_mises.h"
+#include "transfer/lattice.h"
+#include "transfer/separate_lanes.h"
+#include "transfer/set_aside.h"
+
+#include <algorithm>
+
+namespace transfer
+{
+namespace
+{
+/// Gradients of the block's cells at the slots, and the volumes.
+template <class T>
+[[gnu::always_inline]] inline void find_gradients(const Context& context, const grid::NodeMotion* tile,
+                                                  const CellBlock<T>& block, Work<T>& work)
+{
+    using V = BlockLanes<T>;
+    V corner_velocity[3][8], corner_displacement[3][8];
+    gather_corners(tile, block, corner_velocity, corner_displacement);
+    Slopes<V> velocity[3];
+    for (int a = 0; a < 3; ++a) {
+        velocity[a] = slopes_at_slots(corner_velocity[a]);
+        work.displacement[a] = slopes_at_slots(corner_displacement[a]);
+    }
+    const V scale(context.options.dt * context.per_spacing);
+    for (int s = 0; s < slots; ++s) {
+        core::Mat<V> increment;
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b) increment(a, b) = scale * velocity[a].along[b][slope_place(b, s)];
+        // F in the middle of the step; `displacement` belongs to its end.
+        core::Mat<V> middle = deformation_at(work.displacement, s, context.per_spacing);
+        for (std::size_t n = 0; n < 9; ++n) middle.m[n] -= V(Real(0.5)) * increment.m[n];
+        const core::Mat<V> cof = core::cofactor(middle);
+        const V jacobian = middle(0, 0) * cof(0, 0) + middle(0, 1) * cof(0, 1) + middle(0, 2) * cof(0, 2);
+        const V per_jacobian = V(Real(1)) / jacobian;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                work.gradient[s](i, j) = per_jacobian * (increment(i, 0) * cof(j, 0) + increment(i, 1) * cof(j, 1) +
+                                                         increment(i, 2) * cof(j, 2));
+        work.volume[s] = work.rest_volume[s] * jacobian;
+    }
+}
+
+template <class T>
+using BlockMask = core::Mask<T, block_lanes<T>>;
+
+/// Mean dilatation of the averaged particles of every cell, weighted by volume (methods.md B8).
+/// @param intact  [slot] lanes with a particle that follows the plastic law
+template <class T>
+[[gnu::always_inline]] inline BlockLanes<T> mean_dilatation(const Work<T>& work, int law_step,
+                                                            const BlockMask<T> (&intact)[slots])
+{
+    using V = BlockLanes<T>;
+    V volume(T(0)), dilated(T(0));
+    for (int s = 0; s < slots; ++s) {
+        const core::Mat<V>& g = work.gradient[s];
+        const V weight = core::select(intact[s], work.volume[s] * work.law[s * law_step].averaged, V(T(0)));
+        volume += weight;
+        dilated += core::select(intact[s], weight * (g(0, 0) + g(1, 1) + g(2, 2)), V(T(0)));
+    }
+    return core::select(volume > V(T(0)), dilated / volume, V(T(0)));
+}
+
+/// Stress and plastic strain of one slot after the step, zero stress where nothing is intact; the plastic work is
+/// returned [mJ].
+template <class T>
+[[gnu::always_inline]] inline BlockLanes<T> update_stress(const SlotLaw<T>& law, BlockMask<T> intact,
+                                                          BlockLanes<T> mean, int s, const Work<T>& work,
+                                                          BlockState<T>& state, core::Sym<BlockLanes<T>>& stress)
+{
+    using V = BlockLanes<T>;
+    const core::Mat<V>& g = work.gradient[s];
+    core::Sym<V> strain = core::symmetric_part(g);
+    const V shift = law.averaged * (mean - core::trace(strain)) * V(Real(1) / 3);
+    for (int a = 0; a < 3; ++a) strain[a] += shift;
+    core::Sym<V> old;
+    for (std::size_t n = 0; n < 6; ++n) old.s[n] = load_slot<T>(state.stress[n], s);
+    const core::Mat<V> rotation = material::incremental_rotation(material::spin_increment(g));
+    const core::Sym<V> trial = material::elastic_trial(core::rotated(rotation, old), strain,
+                                                       material::LameConstants<V>{law.lame, law.shear + law.shear});
+    const material::PlasticStep<V> step = material::radial_return(
+        trial, load_slot<T>(state.eq_plastic_strain, s),
+        material::PlasticConstants<V>{law.yield, law.hardening, V(Real(3)) * law.shear, law.per_overstress});
+    for (std::size_t n = 0; n < 6; ++n) {
+        stress.s[n] = core::select(intact, step.stress.s[n], V(T(0)));
+        store_slot<T>(stress.s[n], s, state.stress[n]);
+    }
+    store_slot<T>(step.eq_plastic_strain, s, state.eq_plastic_strain);
+    return core::select(intact, step.work * work.volume[s], V(T(0)));
+}
+
+/// V0 P = V0 sigma cof(F) of one slot, added to the fluxes of the slopes it shares.
+template <class T>
+[[gnu::always_inline]] inline void add_flux(Real per_spacing, int s, const BlockState<T>& state, Work<T>& work)
+{
+    using V = BlockLanes<T>;
+    const core::Mat<V> cof = core::cofactor(deformation_at(work.displacement, s, per_spacing));
+    const V volume = work.rest_volume[s] * V(-per_spacing); // f = - sum V0 P grad w
+    core::Sym<V> stress;
+    for (std::size_t n = 0; n < 6; ++n) stress.s[n] = volume * load_slot<T>(state.stress[n], s);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            work.flux[i].along[j][slope_place(j, s)] +=
+                stress(i, 0) * cof(0, j) + stress(i, 1) * cof(1, j) + stress(i, 2) * cof(2, j);
+}
+
+template <class T>
+[[gnu::always_inline]] inline void scatter_force(const Context& context, const CellBlock<T>& block,
+                                                 const BlockState<T>& state, Work<T>& work, grid::NodeForce* tile)
+{
+    using V = BlockLanes<T>;
+    for (Slopes<V>& flux : work.flux)
+        for (auto& axis : flux.along)
+            for (V& value : axis) value = V(T(0));
+    for (int s = 0; s < slots; ++s) add_flux(context.per_spacing, s, state, work);
+    V force[3][8];
+    for (int a = 0; a < 3; ++a) slopes_to_corners(work.flux[a], force[a]);
+    scatter_corners(force, block, tile);
+}
+
+/// Exact onset test of a cell where the cheap one did not clear every particle.
+template <class T>
+[[gnu::noinline]] void test_onset(const Context& context, const CellBlock<T>& block, const BlockState<T>& state,
+                                  const Work<T>& work, int lane, const particles::Particles& particles,
+                                  std::vector<Onset>& onset)
+{
+    core::Sym<Real> stress[slots];
+    core::Mat<Real> gradient[slots];
+    std::size_t count = 0;
+    for (int s = 0; s < slots; ++s) {
+        if (!block.has(lane, s)) continue;
+        stress[count] = stress_at(state, lane, s);
+        gradient[count++] = lane_of(work.gradient[s], lane);
+    }
+    const std::size_t begin = block.begin[static_cast<std::size_t>(lane)];
+    start_cracks(context.options, context.laws, particles, begin, begin + count, Real(1) / context.per_spacing, stress,
+                 gradient, onset);
+}
+
+/// Ask for a state ahead of its use: one dense stream outruns what the hardware fetches by itself.
+template <class T>
+[[gnu::always_inline]] inline void prefetch(const BlockState<T>* state)
+{
+    const char* begin = reinterpret_cast<const char*>(state);
+    for (std::size_t byte = 0; byte < sizeof(BlockState<T>); byte += 64) __builtin_prefetch(begin + byte);
+}
+
+template <class T>
+[[gnu::noinline]] void advance_block(const Context& context, const CellBlock<T>& block, const grid::NodeMotion* motion,
+                                     BlockState<T>& state, particles::Particles& particles, grid::NodeForce* force,
+                                     LeafWork& leaf_work, std::vector<Onset>& onset)
+{
+    using V = BlockLanes<T>;
+    Work<T> work;
+    for (int s = 0; s < slots; ++s) work.rest_volume[s] = load_slot<T>(state.rest_volume, s);
+    find_gradients(context, motion, block, work);
+
+    const int law_step = find_laws(context, block, particles, work.law);
+
+    SetAside aside[slots * block_lanes<T>];
+    int asides = 0;
+    if (!particles.cracks.empty()) asides = set_cracks_aside(context, block, state, work, particles, aside);
+
+    BlockMask<T> intact[slots];
+    for (int s = 0; s < slots; ++s) intact[s] = work.rest_volume[s] > V(T(0));
+    for (int n = 0; n < asides; ++n) intact[aside[n].slot].v[aside[n].lane] = 0;
+
+    const V mean = mean_dilatation(work, law_step, intact);
+    V plastic(T(0));
+    BlockMask<T> near = plastic > plastic;
+    for (int s = 0; s < slots; ++s) {
+        const SlotLaw<T>& law = work.law[s * law_step];
+        core::Sym<V> stress;
+        plastic += update_stress(law, intact[s], mean, s, work, state, stress);
+        if (context.laws.any_decohesion)
+            near = near | (intact[s] & material::may_start(stress, law.tensile_onset, law.shear_onset));
+    }
+    leaf_work.plastic += static_cast<Real>(core::sum(plastic));
+    for (int n = 0; n < asides; ++n) {
+        const auto& [lane, slot, result, share] = aside[n];
+        const auto s = static_cast<std::size_t>(slot), i = static_cast<std::size_t>(lane);
+        for (std::size_t c = 0; c < 6; ++c) state.stress[c][s][i] = static_cast<T>(result.stress.s[c]);
+        state.eq_plastic_strain[s][i] = static_cast<T>(result.eq_plastic_strain);
+        work.rest_volume[slot].v[lane] *= static_cast<T>(share);
+        leaf_work.plastic += result.plastic_work;
+        leaf_work.decohesion += result.decohesion_work;
+    }
+
+    scatter_force(context, block, state, work, force);
+
+    if (context.laws.any_decohesion && core::any(near))
+        for (int i = 0; i < block.count; ++i)
+            if (near[i]) test_onset(context, block, state, work, i, particles, onset);
+}
+
+template <class T>
+void advance_leaf(const Context& context, BlockTable<T>& table, particles::Particles& particles, grid::Levels& levels,
+                  LeafWork& leaf_work, std::vector<Onset>& onset)
+{
+    grid::NodeForce* force = levels.forces(context.leaf);
+    for (int node = 0; node < grid::tile_nodes; ++node) force[node].force = {};
+    for (std::uint32_t b = table.start[context.leaf]; b < table.start[context.leaf + 1]; ++b) {
+        prefetch(&table.state[b] + 1); // beyond the last one nothing is read
+        advance_block(context, table.block[b], levels.motions(context.leaf), table.state[b], particles, force,
+                      leaf_work, onset);
+    }
+}
+
+/// Give every starting particle its entry in the side table, in leaf order.
+void record_onsets(Lattice& lattice, const grid::Levels& levels, particles::Particles& particles)
+{
+    for (std::size_t n = 0; n < lattice.onset.size(); ++n) {
+        if (lattice.onset[n].empty()) continue;
+        const std::uint32_t* start = levels.cell_start.data() + n * grid::leaf_cells;
+        for (const Onset& onset : lattice.onset[n]) {
+            particles.crack[onset.particle] = static_cast<std::int32_t>(particles.cracks.size());
+            particles.cracks.push_back(onset.crack);
+            const auto cell = std::upper_bound(start, start + grid::leaf_cells + 1, onset.particle) - start - 1;
+            lattice.cracked[n * grid::leaf_cells + static_cast<std::size_t>(cell)] = 1;
+        }
+        lattice.onset[n].clear();
+    }
+}
+} // namespace
+
+void advance_lattice(const PassOptions& options, const LawTable& laws, Lattice& lattice,
+                     particles::Particles& particles, grid::Levels& levels, std::vector<LeafWork>& leaf_work)
+{
+    std::visit(
+        [&](auto& table) {
+            core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+                const Context context{options, laws, lattice, Real(1) / levels.spacing(levels.leaves[n].level), n};
+                advance_leaf(context, table, particles, levels, leaf_work[n], lattice.onset[n]);
+            });
+        },
+        lattice.blocks);
+    record_onsets(lattice, levels, particles);
+}
+} // namespace transfer

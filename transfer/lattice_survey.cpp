@@ -1,0 +1,98 @@
+#include "core/parallel.h"
+#include "transfer/block_work.h"
+#include "transfer/solid_share.h"
+
+#include <cmath>
+#include <limits>
+
+namespace transfer
+{
+namespace
+{
+/// cell_squeeze for lanes.
+template <class V>
+V squeeze_of(const core::Mat<V>& f)
+{
+    const core::Mat<V> cof = core::cofactor(f);
+    const V jacobian = f(0, 0) * cof(0, 0) + f(0, 1) * cof(0, 1) + f(0, 2) * cof(0, 2);
+    V longest(Real(0));
+    for (int a = 0; a < 3; ++a)
+        longest = core::max(longest, cof(0, a) * cof(0, a) + cof(1, a) * cof(1, a) + cof(2, a) * cof(2, a));
+    const V infinite(std::numeric_limits<Real>::infinity());
+    return core::select(jacobian > V(Real(0)), core::sqrt(longest) / jacobian, infinite);
+}
+
+/// Stored energy per volume [mJ/mm^3] for lanes: p^2 / (2 K) + J2 / (2 mu), as material::elastic_energy.
+template <class T>
+BlockLanes<T> stored(const SlotLaw<T>& law, const core::Sym<BlockLanes<T>>& stress)
+{
+    using V = BlockLanes<T>;
+    const V mean = core::trace(stress) * V(Real(1) / 3), half(Real(0.5));
+    core::Sym<V> deviator = stress;
+    for (int a = 0; a < 3; ++a) deviator[a] -= mean;
+    const V bulk = law.lame + law.shear * V(Real(2) / 3);
+    return half * mean * mean / bulk + half * half * core::contract(deviator, deviator) / law.shear;
+}
+
+/// Metal part of the volumes, and zero squeeze where a separated particle transmits nothing.
+template <class T>
+[[gnu::noinline]] void regard_cracks(const Context& context, const CellBlock<T>& block,
+                                     const particles::Particles& particles, int slot, BlockLanes<T>& volume,
+                                     BlockLanes<T>& squeeze)
+{
+    for (int i = 0; i < block.count; ++i) {
+        const auto cell = static_cast<std::size_t>(block.cell[static_cast<std::size_t>(i)]);
+        if (context.lattice.cracked[context.leaf * grid::leaf_cells + cell] == 0 || !block.has(i, slot)) continue;
+        const std::int32_t index = particles.crack[block.particle(i, slot)];
+        if (index < 0) continue;
+        const core::Crack& crack = particles.cracks[static_cast<std::size_t>(index)];
+        volume.v[i] *= static_cast<T>(solid_share(crack));
+        if (crack.damage >= 1) squeeze.v[i] = 0;
+    }
+}
+
+template <class T>
+void survey_block(const Context& context, const particles::Particles& particles, const grid::NodeMotion* tile,
+                  const CellBlock<T>& block, const BlockState<T>& state, LatticeSurvey& survey)
+{
+    using V = BlockLanes<T>;
+    V velocity[3][8], corner[3][8];
+    gather_corners(tile, block, velocity, corner);
+    Slopes<V> displacement[3];
+    for (int a = 0; a < 3; ++a) displacement[a] = slopes_at_slots(corner[a]);
+    SlotLaw<T> law[slots];
+    const int law_step = find_laws(context, block, particles, law);
+    const V zero(T(0));
+    for (int s = 0; s < slots; ++s) {
+        const core::Mat<V> f = deformation_at(displacement, s, context.per_spacing);
+        V volume = load_slot<T>(state.rest_volume, s);
+        V squeeze = core::select(volume > zero, squeeze_of(f), zero);
+        if (!particles.cracks.empty()) regard_cracks(context, block, particles, s, volume, squeeze);
+        core::Sym<V> stress;
+        for (std::size_t n = 0; n < 6; ++n) stress.s[n] = load_slot<T>(state.stress[n], s);
+        const V energy = volume * core::determinant(f) * stored(law[s * law_step], stress);
+        survey.elastic += static_cast<Real>(core::sum(core::select(volume > zero, energy, zero)));
+        // Not std::max, which drops a NaN.
+        for (int i = 0; i < block.count; ++i)
+            if (!std::isnan(survey.squeeze) && !(squeeze[i] <= static_cast<T>(survey.squeeze)))
+                survey.squeeze = static_cast<Real>(squeeze[i]);
+    }
+}
+} // namespace
+
+void survey_lattice(const LawTable& laws, const Lattice& lattice, const particles::Particles& particles,
+                    const grid::Levels& levels, std::vector<LatticeSurvey>& survey)
+{
+    survey.assign(levels.leaves.size(), {});
+    const PassOptions no_step;
+    std::visit(
+        [&](const auto& table) {
+            core::parallel_for(survey.size(), [&](std::size_t n) {
+                const Context context{no_step, laws, lattice, Real(1) / levels.spacing(levels.leaves[n].level), n};
+                for (std::uint32_t b = table.start[n]; b < table.start[n + 1]; ++b)
+                    survey_block(context, particles, levels.motions(n), table.block[b], table.state[b], survey[n]);
+            });
+        },
+        lattice.blocks);
+}
+} // namespace transfer

@@ -1,0 +1,37 @@
+/// The law of one particle with decohesion state, as every kernel calls it for the particles it sets aside.
+#pragma once
+
+#include "core/tensor.h"
+#include "material/separation.h"
+#include "transfer/passes.h"
+
+namespace transfer
+{
+/// A particle that is compressed further carries nothing any more (docs/decisions/007).
+inline constexpr Real smallest_volume_ratio = 0.05;
+
+/// What happens to the particle in the step.
+struct SeparationInput
+{
+    material::StrainStep step;
+    Real volume = 0;                              // mm^3, middle of the step, without regard to openings
+    Real volume_ratio = 1;                        // 1, J there
+    const core::Mat<Real>* deformation = nullptr; // 1, F at the end of the step; null in the updated formulation
+    std::uint8_t material = 0;
+    Real per_spacing = 1; // 1/mm, of its cell
+};
+
+/// Without initial values: the kernels keep room for a block of them and fill what they need.
+struct SeparationResult
+{
+    core::Sym<Real> stress; // MPa
+    Real eq_plastic_strain; // 1
+    Real plastic_work;      // mJ
+    Real decohesion_work;   // mJ
+};
+
+/// Advance the crack by one step (material::separate). A separated particle whose cell is turned inside out, or
+/// squeezed beyond what the time step can follow, carries no stress and dissipates nothing (docs/decisions/007).
+SeparationResult separate_particle(const PassOptions& options, const LawTable& laws, const SeparationInput& input,
+                                   core::Crack& crack);
+} // namespace transfer
