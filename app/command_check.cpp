@@ -61,8 +61,7 @@ void print_forecast(const solver::Problem& problem, const Forecast& forecast, in
         fmt::print(
             "wall time    {} on {} thread{}, assuming {:.0f} million particle-steps/s per thread (`cleave bench` "
             "measures it)\n",
-            duration_text(work / (rate * threads)), threads, threads == 1 ? "" : "s",
-            rate / 1e6);
+            duration_text(work / (rate * threads)), threads, threads == 1 ? "" : "s", rate / 1e6);
         fmt::print("output       {:.0f} particle frames, {}; {:.0f} grid frames, {}; {:.0f} volumes, {}\n",
                    forecast.particle_frames, bytes_text(forecast.particle_bytes), forecast.grid_frames,
                    bytes_text(forecast.grid_bytes), forecast.vdb_frames, bytes_text(forecast.vdb_bytes));

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "io/grid_file.h"
 #include "io/particle_file.h"
+#include "io/process_memory.h"
 #include "io/vdb_file.h"
 #include "solver/observe.h"
 
@@ -137,6 +138,7 @@ int run_case(const RunOptions& options)
     Run run{read.problem, solver::prepare(read.problem), solver::Derived{}, solver::State{}};
     try {
         begin(options, log, run, files);
+        io::return_free_memory();
         log.line(fmt::format("cleave {}: {}\n{} particles, {} threads, results in {}", CLEAVE_VERSION,
                              read.problem.title, run.state.particles.size(), threads, directory.string()));
         write_record(run.problem, run.state, 0, files);

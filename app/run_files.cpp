@@ -136,10 +136,13 @@ void write_due(const solver::Problem& problem, const solver::Prepared& prepared,
     const bool grid = files.grid_due.due(state.clock, cod);
     const bool volume = files.vdb_due.due(state.clock, cod);
     if (!particles && !grid && !volume) return;
-    const solver::OutputColumns columns(state);
-    if (particles) write_particles(problem, state, files);
-    if (grid) write_grid(problem, state, files);
-    if (volume) write_volume(problem, state, files);
+    {
+        const solver::OutputColumns columns(state);
+        if (particles) write_particles(problem, state, files);
+        if (grid) write_grid(problem, state, files);
+        if (volume) write_volume(problem, state, files);
+    }
+    io::return_free_memory();
 }
 
 void write_last_frames(const solver::Problem& problem, solver::State& state, RunFiles& files)

@@ -58,6 +58,13 @@ struct alignas(32) NodeForce
     Real per_mass;             // 1/g, 0: never moves (no mass, or a slave)
 };
 
+/// Tile indices [lower, upper] per axis; empty if upper < lower.
+struct NodeBox
+{
+    std::array<std::int8_t, 3> lower{tile_side, tile_side, tile_side};
+    std::array<std::int8_t, 3> upper{-1, -1, -1};
+};
+
 struct Leaf
 {
     int level = 0;
@@ -127,6 +134,7 @@ struct Levels
     std::vector<NodeSum> sum;              // [leaf][729]
     std::vector<NodeMotion> motion;        // [leaf][729]
     std::vector<NodeForce> force;          // [leaf][729] nodal scheme, instead of `sum`
+    std::vector<NodeBox> used;             // [leaf] nodal scheme: corners of occupied cells and owned nodes that move
     std::vector<std::uint8_t> constrained; // [leaf][729] 1: owned node is a slave of the coarser level
     std::vector<LevelInterface> interface; // [count - 1] between level l and l + 1
 

@@ -6,6 +6,8 @@
 #include "grid/interface.h"
 #include "grid/shared_nodes.h"
 
+#include <algorithm>
+
 namespace grid
 {
 namespace
@@ -23,11 +25,40 @@ void set_masses(const std::vector<Real>& mass_cutoff, Levels& levels)
     });
 }
 
+void include(int i, int j, int k, NodeBox& box)
+{
+    const int node[3] = {i, j, k};
+    for (std::size_t a = 0; a < 3; ++a) {
+        box.lower[a] = std::min(box.lower[a], static_cast<std::int8_t>(node[a]));
+        box.upper[a] = std::max(box.upper[a], static_cast<std::int8_t>(node[a]));
+    }
+}
+
+/// Corners of occupied cells, and owned nodes that move or are slaves: nothing else in a tile is ever read or written.
+void find_used_nodes(Levels& levels)
+{
+    levels.used.assign(levels.leaves.size(), {});
+    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+        const std::uint32_t* start = levels.cell_start.data() + n * leaf_cells;
+        for (int cell = 0; cell < leaf_cells; ++cell) {
+            const int i = cell >> 6, j = cell >> 3 & 7, k = cell & 7;
+            if (start[cell] != start[cell + 1]) {
+                include(i, j, k, levels.used[n]);
+                include(i + 1, j + 1, k + 1, levels.used[n]);
+            }
+            const int node = tile_index(i, j, k);
+            const bool slave = levels.constrained[n * tile_nodes + static_cast<std::size_t>(node)] != 0;
+            if (slave || levels.forces(n)[node].per_mass > 0) include(i, j, k, levels.used[n]);
+        }
+    });
+}
+
 void assemble_masses(const std::vector<Real>& mass_cutoff, Levels& levels)
 {
     assemble_sums(levels);
     restrict_sums(levels);
     set_masses(mass_cutoff, levels);
+    find_used_nodes(levels);
 }
 
 void add_lower_halos(std::size_t leaf, Levels& levels)
@@ -37,7 +68,7 @@ void add_lower_halos(std::size_t leaf, Levels& levels)
         const std::int32_t lower = neighbour(levels.leaves[leaf], axes, -1);
         if (lower < 0) continue;
         const NodeForce* other = levels.forces(static_cast<std::size_t>(lower));
-        for_shared_nodes(axes, [&](int mine, int halo) {
+        for_shared_nodes(axes, levels.used[leaf], [&](int mine, int halo) {
             for (std::size_t a = 0; a < 3; ++a) own[mine].force[a] += other[halo].force[a];
         });
     }
@@ -99,7 +130,7 @@ void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, Rea
         add_lower_halos(n, levels);
         const NodeForce* force = levels.forces(n);
         NodeMotion* motion = levels.motions(n);
-        for_owned_nodes([&](int i) {
+        for_nodes(levels.used[n], leaf_side - 1, [&](int i) {
             // Fourth lanes: the spare places, which nobody reads, and 1 / m.
             const Real impulse = dt * force[i].per_mass;
             const Line fall(impulse == 0 ? Line(Real(0)) : falling);

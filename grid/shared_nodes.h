@@ -3,22 +3,29 @@
 
 #include "grid/levels.h"
 
+#include <algorithm>
+
 namespace grid
 {
-/// Ranges of the nodes one leaf shares with its neighbour in direction `axes` (bit a set: one step along axis a).
-/// Calls visit(own node, halo node of the lower partner) for each shared node.
+/// Every node of a tile.
+inline constexpr NodeBox whole_tile{{0, 0, 0}, {leaf_side, leaf_side, leaf_side}};
+
+/// Ranges of the nodes one leaf shares with its neighbour in direction `axes` (bit a set: one step along axis a), as
+/// far as they lie in `box` along the other axes. Calls visit(own node, halo node of the lower partner) for each.
 template <class Visit>
-void for_shared_nodes(int axes, const Visit& visit)
+void for_shared_nodes(int axes, const NodeBox& box, const Visit& visit)
 {
-    const int ni = axes & 1 ? 1 : leaf_side;
-    const int nj = axes & 2 ? 1 : leaf_side;
-    const int nk = axes & 4 ? 1 : leaf_side;
-    const int hi = axes & 1 ? leaf_side : 0;
-    const int hj = axes & 2 ? leaf_side : 0;
-    const int hk = axes & 4 ? leaf_side : 0;
-    for (int i = 0; i < ni; ++i)
-        for (int j = 0; j < nj; ++j)
-            for (int k = 0; k < nk; ++k) visit(tile_index(i, j, k), tile_index(i + hi, j + hj, k + hk));
+    const auto lower = [&](int a) {
+        return axes >> a & 1 ? 0 : static_cast<int>(box.lower[static_cast<std::size_t>(a)]);
+    };
+    const auto upper = [&](int a) {
+        return axes >> a & 1 ? 1 : std::min(leaf_side, box.upper[static_cast<std::size_t>(a)] + 1);
+    };
+    const auto halo = [&](int a) { return axes >> a & 1 ? leaf_side : 0; };
+    for (int i = lower(0); i < upper(0); ++i)
+        for (int j = lower(1); j < upper(1); ++j)
+            for (int k = lower(2); k < upper(2); ++k)
+                visit(tile_index(i, j, k), tile_index(i + halo(0), j + halo(1), k + halo(2)));
 }
 
 /// The leaf that lies one step along the axes of `axes`, towards `sign`, or -1.

@@ -3,6 +3,7 @@
 
 #include "grid/levels.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace grid
@@ -38,5 +39,15 @@ void for_owned_nodes(const Visit& visit)
     for (int i = 0; i < leaf_side; ++i)
         for (int j = 0; j < leaf_side; ++j)
             for (int k = 0; k < leaf_side; ++k) visit(tile_index(i, j, k));
+}
+
+/// `visit(node)` for the nodes of a box up to index `last` along each axis.
+template <class Visit>
+void for_nodes(const NodeBox& box, int last, const Visit& visit)
+{
+    const auto end = [&](std::size_t a) { return std::min<int>(last, box.upper[a]); };
+    for (int i = box.lower[0]; i <= end(0); ++i)
+        for (int j = box.lower[1]; j <= end(1); ++j)
+            for (int k = box.lower[2]; k <= end(2); ++k) visit(tile_index(i, j, k));
 }
 } // namespace grid

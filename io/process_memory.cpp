@@ -1,5 +1,10 @@
 #include "io/process_memory.h"
 
+#include <cstdlib> // defines __GLIBC__
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <fstream>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -18,5 +23,12 @@ std::uint64_t peak_resident_bytes()
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in kB
+}
+
+void return_free_memory()
+{
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 } // namespace io

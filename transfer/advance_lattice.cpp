@@ -1,4 +1,5 @@
 #include "core/parallel.h"
+#include "grid/walls.h"
 #include "material/elastic.h"
 #include "material/onset.h"
 #include "material/rotation.h"
@@ -181,7 +182,7 @@ template <class T>
     }
     leaf_work.plastic += static_cast<Real>(core::sum(plastic));
     for (int n = 0; n < asides; ++n) {
-        const auto& [lane, slot, result, share] = aside[n];
+        const auto& [lane, slot, particle, result, share] = aside[n];
         const auto s = static_cast<std::size_t>(slot), i = static_cast<std::size_t>(lane);
         for (std::size_t c = 0; c < 6; ++c) state.stress[c][s][i] = static_cast<T>(result.stress.s[c]);
         state.eq_plastic_strain[s][i] = static_cast<T>(result.eq_plastic_strain);
@@ -202,7 +203,7 @@ void advance_leaf(const Context& context, BlockTable<T>& table, particles::Parti
                   LeafWork& leaf_work, std::vector<Onset>& onset)
 {
     grid::NodeForce* force = levels.forces(context.leaf);
-    for (int node = 0; node < grid::tile_nodes; ++node) force[node].force = {};
+    grid::for_nodes(levels.used[context.leaf], grid::leaf_side, [&](int node) { force[node].force = {}; });
     for (std::uint32_t b = table.start[context.leaf]; b < table.start[context.leaf + 1]; ++b) {
         prefetch(&table.state[b] + 1); // beyond the last one nothing is read
         advance_block(context, table.block[b], levels.motions(context.leaf), table.state[b], particles, force,

@@ -15,6 +15,7 @@ namespace transfer
 struct SetAside
 {
     int lane, slot;
+    std::size_t particle;
     SeparationResult result;
     Real share; // 1, metal part of its volume
 };
@@ -63,13 +64,13 @@ inline void enlist(const Context& context, const SeparationInput& input, const c
     sliders.out[i] = &out;
 }
 
-/// Call the law of separation for the block's particles with decohesion state, before the others change any stress.
+/// Find the block's particles with decohesion state and ask for their cracks: these lie anywhere in the side table, and
+/// waiting for one after the other costs more than the law.
 template <class T>
-[[gnu::noinline]] int set_cracks_aside(const Context& context, const CellBlock<T>& block, const BlockState<T>& state,
-                                       const Work<T>& work, particles::Particles& particles, SetAside* aside)
+int find_cracks(const Context& context, const CellBlock<T>& block, const particles::Particles& particles,
+                SetAside* aside)
 {
     int count = 0;
-    Sliders sliders;
     for (int i = 0; i < block.count; ++i) {
         const auto cell = static_cast<std::size_t>(block.cell[static_cast<std::size_t>(i)]);
         if (context.lattice.cracked[context.leaf * grid::leaf_cells + cell] == 0) continue;
@@ -77,34 +78,53 @@ template <class T>
             if (!block.has(i, s)) continue;
             const std::size_t p = block.particle(i, s);
             if (particles.crack[p] < 0) continue;
-            const auto gradient = lane_of(work.gradient[s], i);
-            const auto f = deformation_of_lane(work.displacement, s, i, context.per_spacing);
-            const Real volume = static_cast<Real>(work.volume[s][i]);
-            core::Crack& crack = particles.cracks[static_cast<std::size_t>(particles.crack[p])];
-            SeparationInput input{
-                {stress_at(state, i, s),
-                 {},
-                 {},
-                 static_cast<Real>(state.eq_plastic_strain[static_cast<std::size_t>(s)][static_cast<std::size_t>(i)]),
-                 context.options.dt,
-                 context.options.time},
-                volume,
-                volume / particles.rest_volume[p],
-                &f,
-                particles.material[p],
-                context.per_spacing};
-            SetAside& out = aside[count++];
-            out.lane = i;
-            out.slot = s;
-            if (crack.damage >= 1) {
-                enlist(context, input, gradient, crack, out, sliders);
-                continue;
-            }
-            input.step.strain = core::symmetric_part(gradient);
-            input.step.rotation = material::incremental_rotation(material::spin_increment(gradient));
-            out.result = separate_particle(context.options, context.laws, input, crack);
-            out.share = solid_share(crack);
+            aside[count].lane = i;
+            aside[count].slot = s;
+            aside[count++].particle = p;
+            const auto* crack =
+                reinterpret_cast<const char*>(&particles.cracks[static_cast<std::size_t>(particles.crack[p])]);
+            for (std::size_t byte = 0; byte < sizeof(core::Crack); byte += 64) __builtin_prefetch(crack + byte, 1);
+            __builtin_prefetch(&particles.rest_volume[p]);
         }
+    }
+    return count;
+}
+
+/// Call the law of separation for the block's particles with decohesion state, before the others change any stress.
+template <class T>
+[[gnu::noinline]] int set_cracks_aside(const Context& context, const CellBlock<T>& block, const BlockState<T>& state,
+                                       const Work<T>& work, particles::Particles& particles, SetAside* aside)
+{
+    const int count = find_cracks(context, block, particles, aside);
+    Sliders sliders;
+    for (int n = 0; n < count; ++n) {
+        SetAside& out = aside[n];
+        const int i = out.lane, s = out.slot;
+        const std::size_t p = out.particle;
+        const auto gradient = lane_of(work.gradient[s], i);
+        const auto f = deformation_of_lane(work.displacement, s, i, context.per_spacing);
+        const Real volume = static_cast<Real>(work.volume[s][i]);
+        core::Crack& crack = particles.cracks[static_cast<std::size_t>(particles.crack[p])];
+        SeparationInput input{
+            {stress_at(state, i, s),
+             {},
+             {},
+             static_cast<Real>(state.eq_plastic_strain[static_cast<std::size_t>(s)][static_cast<std::size_t>(i)]),
+             context.options.dt,
+             context.options.time},
+            volume,
+            volume / particles.rest_volume[p],
+            &f,
+            particles.material[p],
+            context.per_spacing};
+        if (crack.damage >= 1) {
+            enlist(context, input, gradient, crack, out, sliders);
+            continue;
+        }
+        input.step.strain = core::symmetric_part(gradient);
+        input.step.rotation = material::incremental_rotation(material::spin_increment(gradient));
+        out.result = separate_particle(context.options, context.laws, input, crack);
+        out.share = solid_share(crack);
     }
     finish(context, sliders);
     return count;
