@@ -169,8 +169,7 @@ def row_of(name, directory):
     return {"variant": name, "change": VARIANTS[name][0], **{key: measures.get(key) for key in MEASURES},
             "crack_path": measures.get("crack_path") or "", "force_at_3mm_N": force_near(directory, 3),
             "force_at_6mm_N": force_near(directory, 6), "energy_residual": measures.get("energy_residual"),
-            "wall_s": record["wall_s"], "particles": sum(record["particles"]["start"])
-            if isinstance(record["particles"], dict) else None}
+            "particles": sum(record["particles"]["start"])}
 
 
 def table(rows):
