@@ -21,6 +21,7 @@ int main(int argc, char** argv)
     app::Command chosen;
     app::add_run(program, chosen);
     app::add_check(program, chosen);
+    app::add_point(program, chosen);
     app::add_bench(program, chosen);
     app::add_new(program, chosen);
     app::add_keys(program, chosen);

@@ -128,6 +128,23 @@ std::string legend(const Chart& chart)
     }
     return svg;
 }
+
+/// What is inside the element of a chart.
+std::string content(const Chart& chart)
+{
+    const Frame frame = frame_of(chart);
+    std::string svg = axes(frame, chart);
+    for (const ChartSeries& series : chart.series)
+        svg += series.mark == ChartSeries::Mark::line ? line(frame, series) : points(frame, series);
+    return svg + legend(chart);
+}
+
+std::string opening_tag(double total_height)
+{
+    return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" width=\"{}\" "
+                       "font-family=\"sans-serif\" font-size=\"12\">\n",
+                       width, total_height, width);
+}
 } // namespace
 
 std::vector<double> round_ticks(double low, double high, int count)
@@ -145,14 +162,17 @@ std::vector<double> round_ticks(double low, double high, int count)
 
 std::string svg_chart(const Chart& chart)
 {
-    const Frame frame = frame_of(chart);
-    std::string svg = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" width=\"{}\" "
-                                  "font-family=\"sans-serif\" font-size=\"12\">\n",
-                                  width, height, width);
-    svg += axes(frame, chart);
-    for (const ChartSeries& series : chart.series)
-        svg += series.mark == ChartSeries::Mark::line ? line(frame, series) : points(frame, series);
-    return svg + legend(chart) + "</svg>\n";
+    return opening_tag(height) + content(chart) + "</svg>\n";
+}
+
+std::string svg_charts(const std::vector<Chart>& charts)
+{
+    std::string svg = opening_tag(static_cast<double>(charts.size()) * height);
+    svg += "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+    for (std::size_t i = 0; i < charts.size(); ++i)
+        svg += fmt::format("<g transform=\"translate(0 {})\">\n{}</g>\n", static_cast<double>(i) * height,
+                           content(charts[i]));
+    return svg + "</svg>\n";
 }
 
 std::string escape_xml(const std::string& text)

@@ -33,6 +33,9 @@ std::vector<double> round_ticks(double low, double high, int count);
 /// The chart as an <svg> element: axes with ticks over the range of all series, a legend, the series in order.
 std::string svg_chart(const Chart& chart);
 
+/// Charts below each other as one <svg> element on white, for a file of its own.
+std::string svg_charts(const std::vector<Chart>& charts);
+
 /// Text with the five characters that mean something in XML replaced.
 std::string escape_xml(const std::string& text);
 } // namespace app

@@ -22,6 +22,8 @@ Case read_case_with_warnings(const std::filesystem::path& file, const std::vecto
 {
     Diagnostics diagnostics;
     const Node root = load_document(file, overrides, diagnostics);
+    if (const Node* point = root.find("point"))
+        diagnostics.error(point->place, "[point] makes this the case of a material point", "use `cleave point`");
     // After a syntax error half the file is missing: everything else would only be noise.
     if (diagnostics.error_count() > 0) throw core::InputError(diagnostics.error_text());
 

@@ -69,6 +69,20 @@ TEST(SvgChart, SurvivesAnEmptyHistory)
     EXPECT_FALSE(faults::contains(svg, "nan"));
 }
 
+TEST(SvgChart, StacksCharts)
+{
+    const auto chart = [](const char* label) {
+        return app::Chart{"x", "y", {{label, "red", app::ChartSeries::Mark::line, {0, 1}, {0, 1}}}};
+    };
+    const std::string svg = app::svg_charts({chart("upper"), chart("lower")});
+    EXPECT_EQ(unbalanced_tag(svg), "");
+    EXPECT_EQ(count(svg, "<svg"), 1u);
+    EXPECT_PRED2(faults::contains, svg, "viewBox=\"0 0 860 840\"");
+    EXPECT_PRED2(faults::contains, svg, "translate(0 420)");
+    EXPECT_LT(svg.find(">upper<"), svg.find("translate(0 420)"));
+    EXPECT_GT(svg.find(">lower<"), svg.find("translate(0 420)"));
+}
+
 TEST(SvgField, ShowsTheLargestValueWhereParticlesOverlap)
 {
     app::FieldPicture picture{"damage", {}, {}, {}, {}};

@@ -1,0 +1,70 @@
+#include "solver/point.h"
+
+#include "material/decohesion.h"
+#include "material/rotation.h"
+
+namespace solver
+{
+namespace
+{
+/// Velocity gradient [1/ms] of a step: rate of deformation plus spin. It chooses between conjugate planes.
+core::Mat<Real> velocity_gradient(const PointStep& step)
+{
+    const core::Sym<Real>& e = step.strain;
+    const core::Vec<Real>& w = step.rotation;
+    core::Mat<Real> l{{e[0], e[3] - w[2], e[5] + w[1], e[3] + w[2], e[1], e[4] - w[0], e[5] - w[1], e[4] + w[0], e[2]}};
+    for (Real& entry : l.m) entry /= step.dt;
+    return l;
+}
+
+/// Elastic or plastic step of an intact point, and the onset at its end.
+void advance_intact(const PointLaw& law, const PointStep& step, const core::Mat<Real>& rotation, PointState& state)
+{
+    state.stress = material::elastic_trial(core::rotated(rotation, state.stress), step.strain, law.lame);
+    if (law.plastic) {
+        const auto returned = material::radial_return(state.stress, state.eq_plastic_strain, *law.plastic);
+        state.stress = returned.stress;
+        state.eq_plastic_strain = returned.eq_plastic_strain;
+        state.plastic_work += returned.work;
+    }
+    if (!law.separation) return;
+    state.crack = material::onset(*law.material.decohesion, law.material.elastic, state.stress, state.stress,
+                                  {velocity_gradient(step), {}}, law.spacing, state.time);
+    if (state.crack) state.onset_step = state.step;
+}
+
+void advance_cracked(const PointLaw& law, const PointStep& step, const core::Mat<Real>& rotation, PointState& state)
+{
+    const material::DecohesionStep after =
+        material::separate(*law.separation, *state.crack,
+                           {state.stress, step.strain, rotation, state.eq_plastic_strain, step.dt, state.time});
+    state.stress = after.stress;
+    state.crack = after.crack;
+    state.eq_plastic_strain = after.eq_plastic_strain;
+    state.plastic_work += after.plastic_work;
+    state.decohesion_work += after.decohesion_work;
+}
+} // namespace
+
+PointLaw point_law(const material::Material& material, Real spacing)
+{
+    PointLaw law{material, material::lame_constants<Real>(material.elastic), {}, {}, spacing};
+    if (material.plastic) law.plastic = material::plastic_constants<Real>(material.elastic, *material.plastic);
+    if (material.decohesion) law.separation = material::separation_law(material);
+    return law;
+}
+
+PointState advance(const PointLaw& law, const PointState& before, const PointStep& step)
+{
+    PointState after = before;
+    ++after.step;
+    after.time += step.dt;
+    after.strain = before.strain + step.strain;
+    const core::Mat<Real> rotation = material::incremental_rotation(step.rotation);
+    if (before.crack)
+        advance_cracked(law, step, rotation, after);
+    else
+        advance_intact(law, step, rotation, after);
+    return after;
+}
+} // namespace solver

@@ -1,0 +1,82 @@
+/// `cleave point` as a user runs it, with the numbers cases/point/README.md promises.
+#include "tests/regression/program.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+const std::string cases = std::string(CLEAVE_SOURCE_DIR) + "/cases/point/";
+
+fs::path clean(const char* name)
+{
+    const fs::path directory = fs::path(testing::TempDir()) / name;
+    fs::remove_all(directory);
+    return directory;
+}
+
+testing::AssertionResult contains(const std::string& text, const std::string& part)
+{
+    if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "expected\n" << part << "\nin\n" << text;
+}
+
+TEST(PointCommand, opening_writes_its_files_and_its_summary)
+{
+    const fs::path directory = clean("cleave_point_opening");
+    const test::Outcome outcome = test::run({"point", cases + "opening.toml", "-o", directory.string()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_EQ(test::files_below(directory), (std::vector<std::string>{"point.csv", "point.svg", "resolved.toml"}));
+    EXPECT_TRUE(contains(outcome.output, "mode opening\n"));
+    EXPECT_TRUE(contains(outcome.output, "policy       energy floor, not needed"));
+    const std::string csv = test::contents(directory / "point.csv");
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6002); // header, state 0, 6000 steps
+    const std::string svg = test::contents(directory / "point.svg");
+    EXPECT_TRUE(contains(svg, "normal over opening"));
+    // The same path again, from the resolved case and over the old files.
+    const test::Outcome again = test::run({"point", (directory / "resolved.toml").string(), "-o", directory.string()});
+    EXPECT_EQ(again.exit_code, 0) << again.output;
+    EXPECT_EQ(test::contents(directory / "point.csv"), csv);
+}
+
+TEST(PointCommand, paper_preset_drops)
+{
+    const test::Outcome outcome = test::run(
+        {"point", cases + "shear.toml", "--set", "point.material=paper", "-o", clean("cleave_point_paper").string()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_TRUE(contains(outcome.output, "mode shear\n"));
+    EXPECT_TRUE(contains(outcome.output, "policy       brittle drop over 8 transits"));
+}
+
+TEST(PointCommand, keeps_what_it_computed_before_a_failure)
+{
+    const fs::path directory = clean("cleave_point_failure"), file = fs::path(testing::TempDir()) / "tension.toml";
+    std::ofstream(file) << "include = \"" << cases << "steel.toml\"\n[point]\nmaterial = \"objective\"\ncell = 0.25\n"
+                        << "[[point.segment]]\nsteps = 3000\nstress = { xx = 3000 }\n"; // shears at 1640 MPa
+    const test::Outcome outcome = test::run({"point", file.string(), "-o", directory.string()});
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
+    EXPECT_TRUE(contains(outcome.output, "no strain gives stress xx"));
+    const std::string csv = test::contents(directory / "point.csv");
+    EXPECT_GT(std::count(csv.begin(), csv.end(), '\n'), 1000);
+}
+
+TEST(PointCommand, refuses_cases_and_directories_of_runs)
+{
+    const test::Outcome run_case = test::run({"point", std::string(CLEAVE_SOURCE_DIR) + "/cases/tension/coupon.toml"});
+    EXPECT_EQ(run_case.exit_code, 2);
+    EXPECT_TRUE(contains(run_case.output, "the case has no [point]"));
+    const test::Outcome point_case = test::run({"run", cases + "opening.toml"});
+    EXPECT_EQ(point_case.exit_code, 2);
+    EXPECT_TRUE(contains(point_case.output, "use `cleave point`"));
+    const fs::path directory = clean("cleave_point_beside_run");
+    fs::create_directories(directory);
+    std::ofstream(directory / "run.json") << "{}";
+    const test::Outcome mixed = test::run({"point", cases + "opening.toml", "-o", directory.string()});
+    EXPECT_EQ(mixed.exit_code, 2);
+    EXPECT_TRUE(contains(mixed.output, "holds a run"));
+}
+} // namespace
