@@ -1,9 +1,9 @@
 /// Checkpoints: checkpoint/ck_NNNNNN.h5 (N = step) and `latest`, a text file with the name of the newest.
 ///
 /// A checkpoint holds everything a bitwise continuation needs: all of solver::State and of grid::Levels the choice of
-/// leaves and cells; node values, neighbours, tiles and interfaces are rebuilt by the reader. Values are exact,
-/// uncompressed and protected by checksums. It also holds the text of resolved.toml, so that only the same case goes
-/// on.
+/// leaves and cells; neighbours, tiles and interfaces are rebuilt by the reader, and so are node values, except in the
+/// nodal scheme: there motion and force of the nodes are state. Values are exact, uncompressed and protected by
+/// checksums. It also holds the text of resolved.toml, so that only the same case goes on.
 #pragma once
 
 #include "solver/state.h"

@@ -63,8 +63,9 @@ void advance_lattice(const PassOptions& options, const LawTable& laws, Lattice& 
 /// What the particles of one leaf say together.
 struct LatticeSurvey
 {
-    Real elastic = 0; // mJ
-    Real squeeze = 0; // 1, largest cell_squeeze of particles that transmit force; not finite if some F is not
+    Real elastic = 0;      // mJ
+    Real squeeze = 0;      // 1, largest cell_squeeze of particles that transmit force; not finite if some F is not
+    std::size_t worst = 0; // particle with the largest squeeze
 };
 
 /// Survey of every leaf; reads motion (halos filled).

@@ -72,10 +72,12 @@ void survey_block(const Context& context, const particles::Particles& particles,
         for (std::size_t n = 0; n < 6; ++n) stress.s[n] = load_slot<T>(state.stress[n], s);
         const V energy = volume * core::determinant(f) * stored(law[s * law_step], stress);
         survey.elastic += static_cast<Real>(core::sum(core::select(volume > zero, energy, zero)));
-        // Not std::max, which drops a NaN.
-        for (int i = 0; i < block.count; ++i)
-            if (!std::isnan(survey.squeeze) && !(squeeze[i] <= static_cast<T>(survey.squeeze)))
-                survey.squeeze = static_cast<Real>(squeeze[i]);
+        for (int i = 0; i < block.count; ++i) {
+            // Not std::max, which drops a NaN; empty slots have squeeze 0.
+            if (std::isnan(survey.squeeze) || squeeze[i] <= static_cast<T>(survey.squeeze)) continue;
+            survey.squeeze = static_cast<Real>(squeeze[i]);
+            survey.worst = block.particle(i, s);
+        }
     }
 }
 } // namespace

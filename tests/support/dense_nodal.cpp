@@ -1,0 +1,285 @@
+#include "tests/support/dense_nodal.h"
+
+#include "material/decohesion.h"
+#include "material/onset.h"
+#include "material/rotation.h"
+#include "transfer/separate_particle.h"
+#include "transfer/solid_share.h"
+
+#include <cmath>
+
+namespace support
+{
+namespace
+{
+using Mat = core::Mat<Real>;
+using Sym = core::Sym<Real>;
+using Node = DenseNodal::Node;
+using Cell = DenseNodal::Cell;
+
+Vec3 corner_bits(int c)
+{
+    return {Real(c >> 2), Real(c >> 1 & 1), Real(c & 1)};
+}
+
+Cell cell_of(const DenseNodal& mpm, const NodalPoint& p)
+{
+    const Vec3 scaled = (p.rest_position - mpm.origin) / (mpm.spacing0 / (1 << p.level));
+    return {p.level, int(std::floor(scaled[0])), int(std::floor(scaled[1])), int(std::floor(scaled[2]))};
+}
+
+/// A coarser cell that has the node on its surface: such a node hangs.
+std::optional<Cell> coarse_cell(const DenseNodal& mpm, int level, const Node& at)
+{
+    for (int c = 0; c < 8; ++c) {
+        const Cell cell{level - 1, (at[0] - (c >> 2)) >> 1, (at[1] - (c >> 1 & 1)) >> 1, (at[2] - (c & 1)) >> 1};
+        if (level > 0 && mpm.cells.count(cell) > 0) return cell;
+    }
+    return {};
+}
+
+/// Call visit(free node, weight) for what moves the node `at` of a level.
+template <class Visit>
+void resolve(const DenseNodal& mpm, int level, const Node& at, Real weight, const Visit& visit)
+{
+    const std::optional<Cell> coarse = coarse_cell(mpm, level, at);
+    if (!coarse) {
+        const int shift = mpm.levels - 1 - level;
+        return visit(Node{at[0] << shift, at[1] << shift, at[2] << shift}, weight);
+    }
+    for (int c = 0; c < 8; ++c) {
+        Real part = weight;
+        Node corner;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const int bit = int(corner_bits(c)[int(a)]), lower = (*coarse)[a + 1];
+            const Real local = Real(at[a] - 2 * lower) / 2;
+            part *= bit ? local : 1 - local;
+            corner[a] = lower + bit;
+        }
+        if (part != 0) resolve(mpm, level - 1, corner, part, visit);
+    }
+}
+
+std::vector<DenseNodal::Share> basis_of(const DenseNodal& mpm, const NodalPoint& p)
+{
+    const Real h = mpm.spacing0 / (1 << p.level);
+    const Cell cell = cell_of(mpm, p);
+    const Vec3 t = (p.rest_position - mpm.origin) / h - Vec3(cell[1], cell[2], cell[3]);
+    std::vector<DenseNodal::Share> shares;
+    for (int c = 0; c < 8; ++c) {
+        const Vec3 bit = corner_bits(c);
+        Vec3 w, d;
+        for (int a = 0; a < 3; ++a) {
+            w[a] = bit[a] > 0 ? t[a] : 1 - t[a];
+            d[a] = (bit[a] > 0 ? 1 : -1) / h;
+        }
+        const Vec3 slope(d[0] * w[1] * w[2], w[0] * d[1] * w[2], w[0] * w[1] * d[2]);
+        resolve(mpm, p.level, {cell[1] + int(bit[0]), cell[2] + int(bit[1]), cell[3] + int(bit[2])}, 1,
+                [&](const Node& node, Real weight) {
+                    shares.push_back({node, weight * w.prod(), weight * slope});
+                });
+    }
+    return shares;
+}
+
+/// V0 P without what cracks leave open: f_i = - sum V0 P grad w.
+Mat flux_of(const NodalPoint& p)
+{
+    const Mat cof = core::cofactor(p.deformation_gradient);
+    const Real volume = p.rest_volume * (p.crack ? transfer::solid_share(*p.crack) : Real(1));
+    Mat flux{};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            for (int k = 0; k < 3; ++k) flux(i, j) += volume * p.stress(i, k) * cof(k, j);
+    return flux;
+}
+
+void move_nodes(DenseNodal& mpm, Real dt)
+{
+    for (auto& [key, node] : mpm.nodes) node.force.setZero();
+    for (std::size_t p = 0; p < mpm.points.size(); ++p) {
+        const Mat flux = flux_of(mpm.points[p]);
+        for (const DenseNodal::Share& s : mpm.basis[p])
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j) mpm.nodes[s.node].force[i] -= flux(i, j) * s.slope[j];
+    }
+    for (auto& [key, node] : mpm.nodes) {
+        node.velocity += dt * (node.force / node.mass + mpm.gravity);
+        for (const grid::WallPlane& wall : mpm.walls)
+            if (key[std::size_t(wall.axis)] == wall.node0 << (mpm.levels - 1)) node.velocity[wall.axis] = 0;
+        node.displacement += dt * node.velocity;
+    }
+}
+
+/// How a point deforms in a step.
+struct Strain
+{
+    Mat increment; // 1, L dt
+    Real ratio;    // 1, J in the middle of the step
+    Real volume;   // mm^3, there
+};
+
+Strain deform(const DenseNodal& mpm, Real dt, std::size_t p, Mat& f)
+{
+    Mat rate{}, middle{};
+    f = core::identity<Real>();
+    for (const DenseNodal::Share& s : mpm.basis[p]) {
+        const DenseNodal::NodeState& node = mpm.nodes.at(s.node);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) {
+                rate(i, j) += dt * node.velocity[i] * s.slope[j];
+                f(i, j) += node.displacement[i] * s.slope[j];
+            }
+    }
+    for (std::size_t n = 0; n < 9; ++n) middle.m[n] = f.m[n] - rate.m[n] / 2;
+    const Real ratio = core::determinant(middle);
+    const Mat cof = core::cofactor(middle); // inverse = cof^T / det
+    const Mat transposed{
+        {cof(0, 0), cof(1, 0), cof(2, 0), cof(0, 1), cof(1, 1), cof(2, 1), cof(0, 2), cof(1, 2), cof(2, 2)}};
+    Mat increment = rate * transposed;
+    for (Real& entry : increment.m) entry /= ratio;
+    return {increment, ratio, mpm.points[p].rest_volume * ratio};
+}
+
+Real trace(const Mat& m)
+{
+    return m(0, 0) + m(1, 1) + m(2, 2);
+}
+
+/// The plastic law; the strain has its mean dilatation already.
+void yield(const transfer::LawConstants& law, const Strain& s, const Sym& strain, NodalPoint& p, DenseNodal& mpm)
+{
+    const Mat rotation = material::incremental_rotation(material::spin_increment(s.increment));
+    const Sym trial = material::elastic_trial(core::rotated(rotation, p.stress), strain,
+                                              material::LameConstants<Real>{law.lame, 2 * law.shear});
+    const material::PlasticStep<Real> step = material::radial_return(
+        trial, p.eq_plastic_strain,
+        material::PlasticConstants<Real>{law.yield, law.hardening, 3 * law.shear, law.per_overstress});
+    p.stress = step.stress;
+    p.eq_plastic_strain = step.eq_plastic_strain;
+    mpm.plastic_work += s.volume * step.work;
+}
+
+void separate(Real dt, const Strain& s, Real spacing, NodalPoint& p, DenseNodal& mpm)
+{
+    transfer::PassOptions options;
+    options.dt = dt;
+    options.time = mpm.time;
+    const transfer::SeparationInput input{{p.stress, core::symmetric_part(s.increment),
+                                           material::incremental_rotation(material::spin_increment(s.increment)),
+                                           p.eq_plastic_strain, dt, mpm.time},
+                                          s.volume,
+                                          s.ratio,
+                                          &p.deformation_gradient,
+                                          p.material,
+                                          1 / spacing};
+    const transfer::SeparationResult result = transfer::separate_particle(options, mpm.laws, input, *p.crack);
+    p.stress = result.stress;
+    p.eq_plastic_strain = result.eq_plastic_strain;
+    mpm.plastic_work += result.plastic_work;
+    mpm.decohesion_work += result.decohesion_work;
+}
+
+/// Does the stress of some particle that may start a crack come near its strengths? Only then the cell is looked at.
+bool near_onset(const DenseNodal& mpm, const std::vector<std::size_t>& cell)
+{
+    for (const std::size_t n : cell) {
+        const NodalPoint& p = mpm.points[n];
+        const transfer::LawConstants& law = mpm.laws.constants[p.material];
+        if (!p.crack && material::may_start(p.stress, law.tensile_onset, law.shear_onset)) return true;
+    }
+    return false;
+}
+
+/// Onsets of one cell; they count from the next step on.
+void start_cracks(const DenseNodal& mpm, const std::vector<std::size_t>& cell, const std::vector<Strain>& strain,
+                  Real dt, Real spacing, std::vector<std::optional<core::Crack>>& fresh)
+{
+    Sym mean{};
+    Real volume = 0;
+    core::Vec<Real> nearest{};
+    bool cracked = false;
+    for (const std::size_t n : cell) {
+        const NodalPoint& p = mpm.points[n];
+        if (p.crack && !cracked) nearest = {p.crack->normal};
+        cracked = cracked || p.crack;
+        if (p.crack) continue;
+        mean = mean + p.rest_volume * p.stress;
+        volume += p.rest_volume;
+    }
+    if (!near_onset(mpm, cell)) return;
+    mean = (1 / volume) * mean;
+    for (const std::size_t n : cell) {
+        const NodalPoint& p = mpm.points[n];
+        const material::Material& m = mpm.laws.materials[p.material];
+        if (p.crack || !m.decohesion) continue;
+        Mat l = strain[n].increment;
+        for (Real& entry : l.m) entry /= dt;
+        fresh[n] = material::onset(*m.decohesion, m.elastic, m.decohesion->smoothed_onset ? mean : p.stress, p.stress,
+                                   {l, nearest}, spacing, mpm.time);
+    }
+}
+} // namespace
+
+void DenseNodal::start()
+{
+    for (std::size_t p = 0; p < points.size(); ++p) cells[cell_of(*this, points[p])].push_back(p);
+    for (const NodalPoint& p : points) {
+        basis.push_back(basis_of(*this, p));
+        for (const Share& s : basis.back()) {
+            nodes[s.node].mass += s.weight * p.mass;
+            nodes[s.node].velocity += s.weight * p.mass * p.velocity;
+        }
+    }
+    for (auto& [key, node] : nodes) node.velocity /= node.mass;
+}
+
+void DenseNodal::step(Real dt)
+{
+    move_nodes(*this, dt);
+    time += dt;
+    std::vector<Strain> strain;
+    for (std::size_t p = 0; p < points.size(); ++p)
+        strain.push_back(deform(*this, dt, p, points[p].deformation_gradient));
+
+    std::vector<std::optional<core::Crack>> fresh(points.size());
+    for (const auto& [key, cell] : cells) {
+        const Real spacing = spacing0 / (1 << key[0]);
+        Real volume = 0, dilated = 0;
+        for (const std::size_t n : cell) {
+            if (points[n].crack || !laws.constants[points[n].material].averaged_dilatation) continue;
+            volume += strain[n].volume;
+            dilated += strain[n].volume * trace(strain[n].increment);
+        }
+        for (const std::size_t n : cell) {
+            NodalPoint& p = points[n];
+            if (p.crack) {
+                separate(dt, strain[n], spacing, p, *this);
+                continue;
+            }
+            const transfer::LawConstants& law = laws.constants[p.material];
+            Sym e = core::symmetric_part(strain[n].increment);
+            const Real shift = law.averaged_dilatation ? (dilated / volume - core::trace(e)) / 3 : Real(0);
+            for (int a = 0; a < 3; ++a) e[a] += shift;
+            yield(law, strain[n], e, p, *this);
+        }
+        start_cracks(*this, cell, strain, dt, spacing, fresh);
+    }
+    for (std::size_t p = 0; p < points.size(); ++p)
+        if (fresh[p]) points[p].crack = fresh[p];
+}
+
+Vec3 DenseNodal::displacement(std::size_t point) const
+{
+    Vec3 sum = Vec3::Zero();
+    for (const Share& s : basis[point]) sum += s.weight * nodes.at(s.node).displacement;
+    return sum;
+}
+
+Vec3 DenseNodal::velocity(std::size_t point) const
+{
+    Vec3 sum = Vec3::Zero();
+    for (const Share& s : basis[point]) sum += s.weight * nodes.at(s.node).velocity;
+    return sum;
+}
+} // namespace support
