@@ -14,6 +14,7 @@ struct BenchCase
     solver::Transfer transfer = solver::Transfer::flip;
     solver::Precision precision = solver::Precision::f64;
     int levels = 1; // 2: an eighth of the block is refined
+    solver::Basis basis = solver::Basis::trilinear;
 };
 
 struct BenchResult

@@ -15,7 +15,10 @@ std::string scheme_text(const solver::Numerics& n)
                                  : n.transfer == solver::Transfer::apic ? "APIC"
                                  : n.pic_fraction > 0 ? fmt::format("FLIP with {} PIC", n.pic_fraction)
                                                       : "FLIP";
-    return fmt::format("{} Lagrangian, trilinear basis, {}, stress update {}", total ? "total" : "updated", transfer,
+    const std::string basis = n.basis == solver::Basis::trilinear ? "trilinear basis"
+                              : total ? "trilinear basis (gimp was asked for: the same at rest positions)"
+                                      : "basis gimp: boxes of constant size, cut by the cells they touch";
+    return fmt::format("{} Lagrangian, {}, {}, stress update {}", total ? "total" : "updated", basis, transfer,
                        n.stress_update == solver::StressUpdate::musl ? "from velocities mapped again (MUSL)"
                                                                      : "last (USL)");
 }

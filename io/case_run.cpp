@@ -46,6 +46,9 @@ void read_numerics(Draft& draft)
     solver::Numerics& numerics = draft.problem.numerics;
     numerics.formulation = section.choice<solver::Formulation>("formulation");
     numerics.basis = section.choice<solver::Basis>("basis");
+    if (numerics.basis == solver::Basis::gimp && numerics.formulation == solver::Formulation::total)
+        draft.diagnostics.warning(section.place("basis"), "basis = \"gimp\" changes nothing in the total formulation",
+                                  "boxes never leave their cells there; gimp is for formulation = \"updated\"");
     numerics.stress_update = section.choice("stress_update", numerics.formulation == solver::Formulation::updated
                                                                  ? solver::StressUpdate::musl
                                                                  : solver::StressUpdate::usl);

@@ -1,6 +1,7 @@
 #include "solver/follow.h"
 
 #include "refine/regrid.h"
+#include "transfer/gimp_cover.h"
 
 #include <algorithm>
 
@@ -38,8 +39,10 @@ void find_gauges(const State& state, Derived& derived)
 void regrid(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
 {
     state.strays.refinement = refine::refinement_from_targets(state.levels, state.particles);
+    transfer::refine_voids(prepared.options, state.levels, state.particles, state.strays.refinement);
     refine::split_into_finer_cells(state.levels, state.strays.refinement, prepared.per_axis, state.particles);
     refine::order(problem.numerics.formulation, state.strays.refinement, state.levels, state.particles);
+    transfer::cover_boxes(prepared.options, state.strays.refinement, state.particles, state.levels);
     fold_work(state);
     transfer::assign_all(state.particles, state.levels, state.strays);
     find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);

@@ -8,6 +8,7 @@
 #include "solver/follow.h"
 #include "solver/nodal.h"
 #include "solver/step.h"
+#include "transfer/gimp_cover.h"
 
 #include <fmt/format.h>
 
@@ -105,7 +106,10 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
     state.loads.resize(problem.loads.size());
     state.ligaments.resize(problem.ligaments.size());
     populate(problem, prepared, state);
+    transfer::refine_voids(prepared.options, state.levels, state.particles, state.strays.refinement);
+    refine::split_into_finer_cells(state.levels, state.strays.refinement, prepared.per_axis, state.particles);
     refine::order(problem.numerics.formulation, state.strays.refinement, state.levels, state.particles);
+    transfer::cover_boxes(prepared.options, state.strays.refinement, state.particles, state.levels);
     state.leaf_work.assign(state.levels.leaves.size(), {});
     if (problem.gauge) {
         const Real radius = state.levels.spacing(state.levels.count - 1);

@@ -34,6 +34,7 @@ Prepared prepare(const Problem& problem)
     prepared.options.stress_update = problem.numerics.stress_update;
     prepared.options.precision = problem.numerics.precision;
     prepared.options.pic_fraction = problem.numerics.pic_fraction;
+    prepared.options.basis = problem.numerics.basis;
     for (const SymmetryPlane& plane : problem.symmetry) prepared.walls.push_back(wall_of(plane, problem.grid));
     Real density = 0;
     for (const material::Material& m : problem.materials) {
@@ -48,6 +49,8 @@ Prepared prepare(const Problem& problem)
     if (prepared.per_axis * prepared.per_axis * prepared.per_axis != problem.grid.particles_per_cell)
         throw core::InputError(
             fmt::format("grid.particles_per_cell = {} is not a cube number", problem.grid.particles_per_cell));
+    prepared.options.per_axis = prepared.per_axis;
+    prepared.options.walls = prepared.walls;
     return prepared;
 }
 } // namespace solver

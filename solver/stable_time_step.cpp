@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "particles/tensors.h"
 #include "transfer/cell_squeeze.h"
+#include "transfer/gimp_box.h"
 
 #include <fmt/format.h>
 
@@ -44,7 +45,7 @@ std::vector<Real> fastest_on_lattice(const Prepared& prepared, const State& stat
     transfer::survey_lattice(prepared.laws, state.lattice, state.particles, state.levels, survey);
     std::vector<Real> fastest(survey.size(), 0);
     for (std::size_t n = 0; n < survey.size(); ++n) {
-        if (!std::isfinite(survey[n].squeeze)) not_finite(state, state.levels.cell_start[n * grid::leaf_cells]);
+        if (!std::isfinite(survey[n].squeeze)) not_finite(state, survey[n].worst);
         fastest[n] = prepared.wave_speed * std::max(Real(1), survey[n].squeeze);
     }
     return fastest;
@@ -70,10 +71,11 @@ Real stable_time_step(const Problem& problem, const Prepared& prepared, const St
                                           ? fastest_on_lattice(prepared, state)
                                           : fastest_of_particles(prepared, state);
     const Real finest = levels.spacing(levels.count - 1);
+    const Real share =
+        uses_boxes(prepared.options) ? transfer::box_step_share(prepared.per_axis) : transfer::deformed_step_share;
     Real dt = problem.numerics.cfl * finest / prepared.wave_speed;
     for (std::size_t n = 0; n < fastest.size(); ++n)
-        if (fastest[n] > 0)
-            dt = std::min(dt, transfer::deformed_step_share * levels.spacing(levels.leaves[n].level) / fastest[n]);
+        if (fastest[n] > 0) dt = std::min(dt, share * levels.spacing(levels.leaves[n].level) / fastest[n]);
     return dt;
 }
 } // namespace solver

@@ -1,5 +1,6 @@
 #include "core/parallel.h"
 #include "transfer/advance_cell.h"
+#include "transfer/gimp_passes.h"
 #include "transfer/interface_affine.h"
 #include "transfer/passes.h"
 #include "transfer/scatter_leaf.h"
@@ -50,6 +51,14 @@ void advance_strays(const PassOptions& options, const LawTable& laws, const Stra
     });
 }
 
+void add_work(const std::vector<LeafOutcome>& outcome, std::vector<LeafWork>& leaf_work)
+{
+    for (std::size_t n = 0; n < outcome.size(); ++n) {
+        leaf_work[n].plastic += outcome[n].work.plastic;
+        leaf_work[n].decohesion += outcome[n].work.decohesion;
+    }
+}
+
 /// Give every starting particle its entry in the side table, in leaf order.
 void record_onsets(const std::vector<LeafOutcome>& outcome, particles::Particles& particles)
 {
@@ -73,6 +82,13 @@ void advance_and_scatter(const PassOptions& options, const LawTable& laws, Stray
                          particles::Particles& particles, grid::Levels& levels, std::vector<LeafWork>& leaf_work)
 {
     std::vector<LeafOutcome> outcome(levels.leaves.size());
+    if (uses_boxes(options)) {
+        advance_boxes(options, laws, strays, levels, particles, outcome);
+        add_work(outcome, leaf_work);
+        record_onsets(outcome, particles);
+        assign(all_away(outcome, strays), particles, levels, strays);
+        return scatter_boxes(options, laws, particles, levels, strays);
+    }
     // Strays first: they still need the motion tiles, and a leaf's scatter must see only particles at home.
     advance_strays(options, laws, strays, levels, particles, outcome);
     core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
@@ -80,10 +96,7 @@ void advance_and_scatter(const PassOptions& options, const LawTable& laws, Stray
         scatter_leaf(options, laws, particles, n, levels);
         scatter_affine(options, particles, n, levels);
     });
-    for (std::size_t n = 0; n < outcome.size(); ++n) {
-        leaf_work[n].plastic += outcome[n].work.plastic;
-        leaf_work[n].decohesion += outcome[n].work.decohesion;
-    }
+    add_work(outcome, leaf_work);
     record_onsets(outcome, particles);
     if (options.formulation == Formulation::updated) {
         // A cracked particle leaves its cell's mean pressure: its leaf's sums, made while it was intact, are out of

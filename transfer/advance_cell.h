@@ -88,6 +88,63 @@ struct Kinematics
     }
 }
 
+/// Second half of stage one: what follows from what the particles read off the grid.
+/// @param g       gradient that strains the particles [1/ms], rows: component, columns: direction
+/// @param affine  new matrices of APIC [1/ms]; read with stress last only
+/// @param change  `change(a)`: change of velocity component a [mm/ms]; called for FLIP with stress last only
+template <Formulation F, Transfer T, StressUpdate S, class Change>
+[[gnu::always_inline]] inline void
+carry(const PassOptions& options, const LawTable& laws, const CellFrame& frame, Visitors visitors,
+      const core::Vec<Lanes>& x, const core::Vec<Lanes>& grid_velocity, core::Mat<Lanes>& g,
+      const core::Mat<Lanes>& affine, const Change& change, std::size_t begin, int count,
+      particles::Particles& particles, LeafOutcome& outcome, Kinematics& k)
+{
+    const Lanes dt(options.dt);
+    if constexpr (S == StressUpdate::usl) {
+        for (int a = 0; a < 3; ++a) {
+            const auto axis = static_cast<std::size_t>(a);
+            const Lanes old = load(particles.velocity[axis], begin, count);
+            Lanes fresh = grid_velocity[a];
+            if constexpr (T == Transfer::flip) {
+                fresh = old + change(a);
+                if (options.pic_fraction > 0) fresh += Lanes(options.pic_fraction) * (grid_velocity[a] - fresh);
+            }
+            store_where(k.here, fresh, old, particles.velocity[axis], begin, count);
+        }
+        if constexpr (T == Transfer::apic)
+            for (std::size_t n = 0; n < 9; ++n)
+                store_where(k.here, affine.m[n], load(particles.affine[n], begin, count), particles.affine[n], begin,
+                            count);
+    }
+    core::Vec<Lanes> moved;
+    for (int a = 0; a < 3; ++a) {
+        moved[a] = core::select(k.here, x[a] + dt * grid_velocity[a], x[a]);
+        store(moved[a], particles.position[static_cast<std::size_t>(a)], begin, count);
+    }
+    k.volume = load(particles.rest_volume, begin, count);
+    for (Lanes& entry : g.m) entry *= dt;
+    k.averaged = k.here & law_lanes(laws, particles, begin, count).averaged;
+    if constexpr (F == Formulation::total) {
+        k.gradient_increment = advance_deformation(g, begin, count, particles, k.volume);
+    } else {
+        k.gradient_increment = g;
+        const Lanes ratio = load(particles.volume_ratio, begin, count);
+        const Lanes half = Lanes(Real(0.5)) * (g(0, 0) + g(1, 1) + g(2, 2));
+        const Lanes fresh = ratio * (Lanes(Real(1)) + half) / (Lanes(Real(1)) - half);
+        store_where(k.here, fresh, ratio, particles.volume_ratio, begin, count);
+        k.volume *= Lanes(Real(0.5)) * (ratio + fresh);
+        LaneMask left = k.here & !inside(frame, moved);
+        if (visitors == Visitors::everyone) {
+            const LaneMask home = present<F>(Visitors::residents, particles, begin, count);
+            left = left & home;
+            k.averaged = k.averaged & home;
+        }
+        if (visitors != Visitors::stray && core::any(left)) note_leavers(left, begin, count, particles, outcome);
+    }
+    k.dilatation = k.gradient_increment(0, 0) + k.gradient_increment(1, 1) + k.gradient_increment(2, 2);
+    if (laws.any_decohesion && !particles.cracks.empty()) k.averaged = k.averaged & intact(particles, begin, count);
+}
+
 /// Stage one: move the particles, update velocity and deformation, leave what the material needs in `k`.
 template <Formulation F, Transfer T, StressUpdate S>
 [[gnu::always_inline]] inline void move(const PassOptions& options, const LawTable& laws, const CellFrame& frame,
@@ -102,50 +159,18 @@ template <Formulation F, Transfer T, StressUpdate S>
     } else {
         at = local_position(frame, x);
     }
-    const Lanes dt(options.dt);
     const Lanes per_spacing(frame.per_spacing);
     core::Vec<Lanes> grid_velocity;
     core::Mat<Lanes> g = gradient(field, velocity_column, at, per_spacing, grid_velocity);
-    if constexpr (S == StressUpdate::usl) {
-        for (int a = 0; a < 3; ++a) {
-            const auto axis = static_cast<std::size_t>(a);
-            const Lanes old = load(particles.velocity[axis], begin, count);
-            Lanes fresh = grid_velocity[a];
-            if constexpr (T == Transfer::flip) {
-                fresh = old + value(field, change_column + a, at);
-                if (options.pic_fraction > 0) fresh += Lanes(options.pic_fraction) * (grid_velocity[a] - fresh);
-            }
-            store_where(k.here, fresh, old, particles.velocity[axis], begin, count);
-        }
-        if constexpr (T == Transfer::apic)
-            for (std::size_t n = 0; n < 9; ++n)
-                store_where(k.here, g.m[n], load(particles.affine[n], begin, count), particles.affine[n], begin, count);
-    } else {
+    if constexpr (S == StressUpdate::musl) {
         core::Vec<Lanes> remapped;
         g = gradient(field, change_column, at, per_spacing, remapped);
     }
-    core::Vec<Lanes> moved;
-    for (int a = 0; a < 3; ++a) {
-        moved[a] = core::select(k.here, x[a] + dt * grid_velocity[a], x[a]);
-        store(moved[a], particles.position[static_cast<std::size_t>(a)], begin, count);
-    }
-    k.volume = load(particles.rest_volume, begin, count);
-    for (Lanes& entry : g.m) entry *= dt;
-    if constexpr (F == Formulation::total) {
-        k.gradient_increment = advance_deformation(g, begin, count, particles, k.volume);
-    } else {
-        k.gradient_increment = g;
-        const Lanes ratio = load(particles.volume_ratio, begin, count);
-        const Lanes half = Lanes(Real(0.5)) * (g(0, 0) + g(1, 1) + g(2, 2));
-        const Lanes fresh = ratio * (Lanes(Real(1)) + half) / (Lanes(Real(1)) - half);
-        store_where(k.here, fresh, ratio, particles.volume_ratio, begin, count);
-        k.volume *= Lanes(Real(0.5)) * (ratio + fresh);
-        const LaneMask left = k.here & !inside(frame, moved);
-        if (visitors == Visitors::residents && core::any(left)) note_leavers(left, begin, count, particles, outcome);
-    }
-    k.dilatation = k.gradient_increment(0, 0) + k.gradient_increment(1, 1) + k.gradient_increment(2, 2);
-    k.averaged = k.here & law_lanes(laws, particles, begin, count).averaged;
-    if (laws.any_decohesion && !particles.cracks.empty()) k.averaged = k.averaged & intact(particles, begin, count);
+    const auto change = [&](int a) __attribute__((always_inline))
+    {
+        return value(field, change_column + a, at);
+    };
+    carry<F, T, S>(options, laws, frame, visitors, x, grid_velocity, g, g, change, begin, count, particles, outcome, k);
 }
 
 /// Strain increment with the cell's mean dilatation on averaged lanes.
@@ -200,16 +225,14 @@ inline void unpack_gradients(const Kinematics* k, std::size_t count, core::Mat<R
 }
 } // namespace detail
 
-/// Advance the particles [begin, end) that are served.
-template <Formulation F, Transfer T, StressUpdate S>
-void advance_cell(const PassOptions& options, const LawTable& laws, const CellFrame& frame, Visitors visitors,
-                  const grid::NodeMotion* tile, std::size_t begin, std::size_t end, particles::Particles& particles,
-                  LeafOutcome& outcome)
+/// Advance the particles [begin, end) of one cell; `move(first, count, k)` is stage one of a chunk.
+template <class Move>
+[[gnu::always_inline]] inline void
+advance_group(const PassOptions& options, const LawTable& laws, const CellFrame& frame, std::size_t begin,
+              std::size_t end, particles::Particles& particles, LeafOutcome& outcome, const Move& move)
 {
     constexpr std::size_t group = 64; // particles averaged together at most; more do not meet in a cell
     constexpr std::size_t chunks = group / Lanes::lanes;
-    CellField field;
-    read_cell(tile + frame.node, field);
     for (std::size_t first = begin; first < end; first += group) {
         const std::size_t last = std::min(end, first + group);
         detail::Kinematics k[chunks];
@@ -219,10 +242,7 @@ void advance_cell(const PassOptions& options, const LawTable& laws, const CellFr
         for (std::size_t p = first; p < last; p += Lanes::lanes, ++c) {
             const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
             // Two copies: without a tail the compiler drops every test of `count`.
-            count == Lanes::lanes
-                ? detail::move<F, T, S>(options, laws, frame, visitors, field, p, Lanes::lanes, particles, outcome,
-                                        k[c])
-                : detail::move<F, T, S>(options, laws, frame, visitors, field, p, count, particles, outcome, k[c]);
+            count == Lanes::lanes ? move(p, Lanes::lanes, k[c]) : move(p, count, k[c]);
             volume += core::sum(core::select(k[c].averaged, k[c].volume, Lanes(Real(0))));
             dilated += core::sum(core::select(k[c].averaged, k[c].volume * k[c].dilatation, Lanes(Real(0))));
         }
@@ -246,5 +266,20 @@ void advance_cell(const PassOptions& options, const LawTable& laws, const CellFr
                          outcome.onset);
         }
     }
+}
+
+/// Advance the particles [begin, end) that are served.
+template <Formulation F, Transfer T, StressUpdate S>
+void advance_cell(const PassOptions& options, const LawTable& laws, const CellFrame& frame, Visitors visitors,
+                  const grid::NodeMotion* tile, std::size_t begin, std::size_t end, particles::Particles& particles,
+                  LeafOutcome& outcome)
+{
+    CellField field;
+    read_cell(tile + frame.node, field);
+    advance_group(
+        options, laws, frame, begin, end, particles,
+        outcome, [&](std::size_t p, int count, detail::Kinematics& k) __attribute__((always_inline)) {
+            detail::move<F, T, S>(options, laws, frame, visitors, field, p, count, particles, outcome, k);
+        });
 }
 } // namespace transfer

@@ -121,6 +121,7 @@ enum class Visitors
 {
     residents, // the particles stored under the cell that have not left it
     stray,     // one particle that is stored elsewhere
+    everyone,  // all particles stored under the cell (gimp)
 };
 
 /// Lanes to serve among the first `count`. In the total formulation nobody ever leaves.

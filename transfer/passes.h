@@ -9,6 +9,7 @@
 #pragma once
 
 #include "grid/levels.h"
+#include "grid/walls.h"
 #include "particles/particles.h"
 #include "transfer/law_table.h"
 #include "transfer/scheme.h"
@@ -27,7 +28,17 @@ struct PassOptions
     Real pic_fraction = 0; // 1
     Real dt = 0;           // ms
     Real time = 0;         // ms, at the end of the step
+    Basis basis = Basis::trilinear;
+    int per_axis = 2;                   // particles per cell and axis: the size of the boxes of gimp
+    std::vector<grid::WallPlane> walls; // gimp: boxes are reflected there
 };
+
+/// Do the passes use boxes? In the total formulation boxes lie on the lattice and never leave their cells: the mean
+/// over a box is the value in its centre, and gimp is trilinear.
+inline bool uses_boxes(const PassOptions& options)
+{
+    return options.basis == Basis::gimp && options.formulation == Formulation::updated;
+}
 
 /// Dissipation of one leaf so far [mJ].
 struct LeafWork
@@ -40,9 +51,10 @@ struct LeafWork
 ///
 /// m_i = sum w m,   p_i = sum w m (v [+ C (x_i - x)]),   f_i = - sum V sigma grad w   (total: - sum V0 P grad_X w)
 ///
+/// @param strays  reads the particles outside their home cell; gimp: writes the list of visitors and `outside`
 /// @param levels  reads leaves, cell_start; writes sum (halos not yet assembled, interfaces not yet restricted)
-void scatter(const PassOptions& options, const LawTable& laws, const Strays& strays,
-             const particles::Particles& particles, grid::Levels& levels);
+void scatter(const PassOptions& options, const LawTable& laws, Strays& strays, const particles::Particles& particles,
+             grid::Levels& levels);
 
 /// Move particles with the updated nodal velocity, update stress and decohesion state, scatter for the next step.
 ///

@@ -1,6 +1,7 @@
 #include "core/parallel.h"
 #include "transfer/cell_sum.h"
 #include "transfer/chunk.h"
+#include "transfer/gimp_passes.h"
 #include "transfer/interface_affine.h"
 #include "transfer/passes.h"
 #include "transfer/scatter_leaf.h"
@@ -89,6 +90,7 @@ HangingRange hanging_for(const grid::Levels& levels, std::size_t leaf)
 void remap_momentum(const PassOptions& options, const Strays& strays, particles::Particles& particles,
                     grid::Levels& levels)
 {
+    if (uses_boxes(options)) return remap_boxes(options, strays, particles, levels);
     with_scheme(options, [&]<Formulation F, Transfer T>() {
         core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
             grid::NodeSum* tile = levels.sums(n);

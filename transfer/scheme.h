@@ -6,8 +6,8 @@ namespace transfer
 {
 enum class Basis
 {
-    trilinear,
-    gimp, // reserved: refused by the case reader until it exists
+    trilinear, // particles are points
+    gimp,      // particles are boxes (transfer/gimp_box.h); in the total formulation the same as trilinear
 };
 
 enum class Formulation

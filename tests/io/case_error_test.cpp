@@ -96,6 +96,39 @@ TEST_F(CaseError, infinity_only_where_it_means_something)
                          "'density' must be a finite number, not inf"));
 }
 
+TEST_F(CaseError, boxes_where_they_change_nothing)
+{
+    const std::string text = std::string(valid_case) + "[numerics]\nbasis = \"gimp\"\n";
+    const io::Case read = io::read_case_with_warnings(write(text));
+    ASSERT_EQ(read.warnings.size(), 1U);
+    EXPECT_TRUE(contains(read.warnings[0], "warning: basis = \"gimp\" changes nothing in the total formulation\n"));
+    EXPECT_EQ(complaint(text + "formulation = \"updated\"\n"), "");
+}
+
+TEST_F(CaseError, nodal_transfer_off_its_lattice)
+{
+    const std::string text = std::string(valid_case) + "[numerics]\ntransfer = \"nodal\"\n";
+    EXPECT_EQ(complaint(text), "");
+    const std::string error = "error: transfer = \"nodal\" needs formulation = \"total\", stress_update = \"usl\" and "
+                              "grid.particles_per_cell = 8\n";
+    EXPECT_TRUE(contains(complaint(text + "formulation = \"updated\"\n"), error));
+    EXPECT_TRUE(contains(complaint(text + "stress_update = \"musl\"\n"), error));
+    EXPECT_TRUE(contains(complaint(with(text, "levels = 2", "levels = 2\nparticles_per_cell = 27")), error));
+    EXPECT_TRUE(contains(complaint(text + "formulation = \"updated\"\n"), "choose \"flip\" or \"apic\""));
+    EXPECT_TRUE(
+        contains(complaint(text + "pic_fraction = 0.1\n"), "error: pic_fraction belongs to transfer = \"flip\""));
+}
+
+TEST_F(CaseError, mixed_precision_without_the_nodal_scheme)
+{
+    const std::string text = std::string(valid_case) + "[numerics]\nprecision = \"mixed\"\n";
+    EXPECT_EQ(complaint(text), "");
+    const std::string error = "error: precision = \"mixed\" needs transfer = \"nodal\"\n";
+    EXPECT_TRUE(contains(complaint(text + "transfer = \"flip\"\n"), error));
+    EXPECT_TRUE(contains(complaint(text + "transfer = \"apic\"\n"), error));
+    EXPECT_TRUE(contains(complaint(text + "formulation = \"updated\"\n"), error)); // flip by default
+}
+
 TEST_F(CaseError, missing_file)
 {
     try {

@@ -5,6 +5,8 @@
 #include "io/state_columns.h"
 #include "tests/io/file_faults.h"
 #include "tests/io/sample_state.h"
+#include "tests/solver/same_bits.h"
+#include "tests/support/runs.h"
 
 #include <gtest/gtest.h>
 
@@ -112,6 +114,78 @@ TEST(Checkpoint, ReturnsAnIntactStateWithoutTheOptionalColumns)
     state.history.clear();
     state.gauge_lower.clear();
     expect_same(state, io::read_checkpoint(io::write_checkpoint(folder.path(), state, this_case, 2), this_case));
+}
+
+namespace
+{
+/// A bar that yields, is torn apart quickly and carries cracks after a while; nodal scheme.
+support::Job torn_bar(solver::Precision precision)
+{
+    material::Material metal = support::metal();
+    metal.plastic = material::VonMises{10, 100};
+    metal.decohesion = material::Decohesion{};
+    metal.decohesion->s_max = 11;
+    metal.decohesion->tau_max = 50;
+    metal.decohesion->u0 = 2e-3;
+    solver::Problem problem = support::bar(metal, 20, 0.01);
+    problem.grid.levels = 2;
+    problem.zones = {support::zone(geometry::box({-1, 1, -1}, {3, 2, 3}), 1)};
+    problem.numerics = support::nodal_numerics(precision);
+    return support::started(problem);
+}
+
+/// Continue from the file as the program does.
+support::Job from_file(support::Job& run, const std::filesystem::path& folder)
+{
+    std::filesystem::path path;
+    {
+        const solver::OutputColumns columns(run.state);
+        path = io::write_checkpoint(folder, run.state, this_case, 1);
+    }
+    support::Job again{run.problem, run.prepared, {}, io::read_checkpoint(path, this_case)};
+    solver::resume(again.problem, again.prepared, again.state, again.derived);
+    return again;
+}
+} // namespace
+
+// Cracks start before some checkpoints and after others.
+TEST(Checkpoint, ANodalRunContinuesToTheSameBits)
+{
+    for (const solver::Precision precision : {solver::Precision::f64, solver::Precision::mixed}) {
+        const faults::Folder folder;
+        support::Job run = torn_bar(precision);
+        std::size_t found = 0, started = 0;
+        for (int n = 0; n < 20; ++n) {
+            support::advance(10, run);
+            support::Job again = from_file(run, folder.path());
+            const std::size_t cracks = run.state.particles.cracks.size();
+            support::Job straight = run;
+            support::advance(10, straight);
+            support::advance(10, again);
+            test::expect_same_particles(support::particles_of(straight), support::particles_of(again));
+            test::expect_same_loads(straight.state.loads, again.state.loads);
+            EXPECT_TRUE(test::same_bits(straight.state.levels.motion, again.state.levels.motion));
+            EXPECT_TRUE(test::same_bits(straight.state.levels.force, again.state.levels.force));
+            EXPECT_EQ(bits(straight.state.leaf_work), bits(again.state.leaf_work));
+            ASSERT_FALSE(HasFailure()) << "from step " << run.state.clock.step;
+            found += cracks > 0 ? 1 : 0;
+            started += straight.state.particles.cracks.size() > cracks ? 1 : 0;
+        }
+        EXPECT_GT(found, 0U);
+        EXPECT_LT(found, 20U);
+        EXPECT_GT(started, 0U);
+    }
+}
+
+TEST(Checkpoint, RefusesNodesThatDoNotFitTheLeaves)
+{
+    const faults::Folder folder;
+    support::Job run = torn_bar(solver::Precision::f64);
+    const solver::OutputColumns columns(run.state);
+    run.state.levels.motion.pop_back();
+    const auto path = io::write_checkpoint(folder.path(), run.state, this_case, 1);
+    EXPECT_PRED2(contains, faults::message<core::FileError>([&] { io::read_checkpoint(path, this_case); }),
+                 "the nodes do not fit the leaves");
 }
 
 TEST(Checkpoint, KeepsTheNewestAndDropsLeftOversOfAnotherRun)

@@ -25,17 +25,19 @@ inline solver::Problem thin_bar(Real length, int cells, Real stiffness, Real den
     return problem;
 }
 
-/// Set v_x(X), its slope (for affine particles) and sigma_xx(X), and scatter again.
+/// Set v_x(X), its slope (for affine particles) and sigma_xx(X), and begin with them.
 template <class Velocity, class Slope, class Stress>
 void set_wave(const Velocity& velocity, const Slope& slope, const Stress& stress, Job& run)
 {
-    particles::Particles& particles = run.state.particles;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-        const Real x = particles.rest_position[0][p];
-        particles.velocity[0][p] = velocity(x);
-        particles.stress[0][p] = stress(x);
-        if (!particles.affine[0].empty()) particles.affine[0][p] = slope(x);
-    }
-    transfer::scatter(run.prepared.options, run.prepared.laws, run.state.strays, particles, run.state.levels);
+    restart_with(
+        [&](particles::Particles& particles) {
+            for (std::size_t p = 0; p < particles.size(); ++p) {
+                const Real x = particles.rest_position[0][p];
+                particles.velocity[0][p] = velocity(x);
+                particles.stress[0][p] = stress(x);
+                if (!particles.affine[0].empty()) particles.affine[0][p] = slope(x);
+            }
+        },
+        run);
 }
 } // namespace support

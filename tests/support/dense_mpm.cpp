@@ -25,18 +25,18 @@ struct Corner
     Vec3 slope; // 1/mm
 };
 
-/// Cell of a point and its eight corners.
+/// Cell of a point and the corners it weighs on; a box has those of all its sub-boxes.
 struct Place
 {
     Key cell;
-    std::array<Corner, 8> corner;
+    std::vector<Corner> corner;
 };
 
-Place place_of(const Vec3& x, const Vec3& origin, Real h)
+/// Add the corners of the cell of `at`, weighed by `share`, for a point at `x`.
+void add_corners(const Vec3& at, Real share, const Vec3& x, const Vec3& origin, Real h, Place& place)
 {
-    const Vec3 scaled = (x - origin) / h;
+    const Vec3 scaled = (at - origin) / h;
     const Vec3 lower = scaled.array().floor();
-    Place place{{int(lower[0]), int(lower[1]), int(lower[2])}, {}};
     for (int c = 0; c < 8; ++c) {
         const Vec3 bit(c >> 2, c >> 1 & 1, c & 1);
         const Vec3 t = scaled - lower;
@@ -46,11 +46,36 @@ Place place_of(const Vec3& x, const Vec3& origin, Real h)
             d[a] = (bit[a] > 0 ? 1 : -1) / h;
         }
         const Vec3 node = lower + bit;
-        place.corner[std::size_t(c)] = {{int(node[0]), int(node[1]), int(node[2])},
-                                        h * (node - scaled),
-                                        w.prod(),
-                                        {d[0] * w[1] * w[2], w[0] * d[1] * w[2], w[0] * w[1] * d[2]}};
+        place.corner.push_back({{int(node[0]), int(node[1]), int(node[2])},
+                                origin + h * node - x,
+                                share * w.prod(),
+                                share * Vec3(d[0] * w[1] * w[2], w[0] * d[1] * w[2], w[0] * w[1] * d[2])});
     }
+}
+
+/// Centre and length of [x - half, x + half] below and above the next plane of cells.
+std::array<std::array<Real, 2>, 2> halves(Real x, Real half, Real origin, Real h)
+{
+    const Real plane = origin + h * std::round((x - origin) / h);
+    const Real cut = std::min(std::max(plane, x - half), x + half);
+    return {{{(x - half + cut) / 2, cut - x + half}, {(cut + x + half) / 2, x + half - cut}}};
+}
+
+/// Boxes have half width `half`; 0: a point.
+Place place_of(const Vec3& x, Real half, const Vec3& origin, Real h)
+{
+    const Vec3 lower = ((x - origin) / h).array().floor();
+    Place place{{int(lower[0]), int(lower[1]), int(lower[2])}, {}};
+    if (half == 0) {
+        add_corners(x, 1, x, origin, h, place);
+        return place;
+    }
+    for (const auto& i : halves(x[0], half, origin[0], h))
+        for (const auto& j : halves(x[1], half, origin[1], h))
+            for (const auto& k : halves(x[2], half, origin[2], h)) {
+                const Real share = i[1] * j[1] * k[1] / (8 * half * half * half);
+                if (share > 0) add_corners({i[0], j[0], k[0]}, share, x, origin, h, place);
+            }
     return place;
 }
 
@@ -85,7 +110,8 @@ void DenseMpm::step(Real dt)
     std::map<Key, Node> nodes;
     std::vector<Place> places;
     for (const DensePoint& p : points)
-        places.push_back(place_of(total ? p.rest_position : p.position, origin, spacing));
+        places.push_back(place_of(total ? p.rest_position : p.position,
+                                  uses_boxes(options) ? spacing / (2 * options.per_axis) : 0, origin, spacing));
     const auto averaged = [&](const DensePoint& p) { return materials[p.material].cell_averaged_dilatation; };
 
     // The updated formulation averages the pressure too: the adjoint of averaging the dilatation.
@@ -122,6 +148,14 @@ void DenseMpm::step(Real dt)
         n.velocity = n.momentum / n.mass + n.change;
     }
 
+    const auto affine_of = [&](std::size_t i) -> Matrix {
+        Matrix moment = Matrix::Zero(), inertia = Matrix::Zero();
+        for (const Corner& c : places[i].corner) {
+            moment += c.weight * nodes[c.key].velocity * c.from_point.transpose();
+            inertia += c.weight * c.from_point * c.from_point.transpose();
+        }
+        return moment * inertia.inverse();
+    };
     std::vector<Matrix> gradient(points.size(), Matrix::Zero());
     std::vector<Vec3> grid_velocity(points.size(), Vec3::Zero());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -135,7 +169,7 @@ void DenseMpm::step(Real dt)
         }
         const Vec3 flip = p.velocity + change;
         p.velocity = apic ? grid_velocity[i] : Vec3(flip + options.pic_fraction * (grid_velocity[i] - flip));
-        if (apic) p.affine = gradient[i];
+        if (apic) p.affine = uses_boxes(options) ? affine_of(i) : gradient[i];
     }
     if (musl) {
         for (auto& [key, n] : nodes) n.momentum.setZero();

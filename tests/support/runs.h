@@ -1,6 +1,7 @@
 /// Whole scenes in code: a bar, a plate with pins, and how to advance them.
 #pragma once
 
+#include "solver/nodal.h"
 #include "solver/step.h"
 
 #include <limits>
@@ -27,6 +28,28 @@ inline void advance(int steps, Job& run)
     for (int n = 0; n < steps; ++n) solver::advance(run.problem, run.prepared, run.state, run.derived);
 }
 
+/// Begin again with what `change(particles)` makes of the state at time 0, whatever the scheme.
+template <class Change>
+void restart_with(const Change& change, Job& run)
+{
+    const bool nodal = solver::nodal(run.problem);
+    solver::State& state = run.state;
+    if (nodal) {
+        transfer::fill_columns(state.levels, state.lattice, state.particles);
+        state.levels.sum.resize(state.levels.motion.size());
+    }
+    change(state.particles);
+    transfer::scatter(run.prepared.options, run.prepared.laws, state.strays, state.particles, state.levels);
+    if (nodal) solver::start_nodal(run.prepared, state);
+}
+
+/// Particles with every column, whatever the scheme.
+inline particles::Particles particles_of(Job& run)
+{
+    const solver::OutputColumns columns(run.state);
+    return run.state.particles;
+}
+
 /// A formulation with the stress update the case reader gives it.
 inline solver::Numerics numerics(solver::Formulation formulation)
 {
@@ -34,6 +57,24 @@ inline solver::Numerics numerics(solver::Formulation formulation)
     n.formulation = formulation;
     n.stress_update =
         formulation == solver::Formulation::updated ? solver::StressUpdate::musl : solver::StressUpdate::usl;
+    return n;
+}
+
+/// Boxes, in the updated formulation.
+inline solver::Numerics gimp_numerics(solver::Transfer transfer)
+{
+    solver::Numerics n = numerics(solver::Formulation::updated);
+    n.basis = solver::Basis::gimp;
+    n.transfer = transfer;
+    return n;
+}
+
+/// The nodal scheme.
+inline solver::Numerics nodal_numerics(solver::Precision precision)
+{
+    solver::Numerics n;
+    n.transfer = solver::Transfer::nodal;
+    n.precision = precision;
     return n;
 }
 

@@ -5,6 +5,7 @@
 #include "grid/momentum.h"
 #include "grid/topology.h"
 #include "particles/order.h"
+#include "transfer/gimp_cover.h"
 
 #include <algorithm>
 #include <numeric>
@@ -112,7 +113,11 @@ void disturb(std::uint64_t seed, Scene& scene)
         }
         p.away[n] = cell.level != home.level || cell.cell != home.cell ? 1 : 0;
     }
+    transfer::cover_boxes(scene.options, scene.refinement, p, scene.levels);
+    scene.leaf_work.assign(scene.levels.leaves.size(), {});
     transfer::assign_all(p, scene.levels, scene.strays);
+    if (transfer::uses_boxes(scene.options)) // new cells, new visitors
+        transfer::scatter(scene.options, scene.laws, scene.strays, scene.particles, scene.levels);
 }
 
 void order(Scene& scene)
@@ -141,6 +146,7 @@ void order(Scene& scene)
     });
     particles::reorder(ordered, scene.particles);
     std::fill(scene.particles.away.begin(), scene.particles.away.end(), std::uint8_t(0));
+    transfer::cover_boxes(scene.options, scene.refinement, scene.particles, scene.levels);
     scene.strays.refinement = scene.refinement;
     transfer::assign_all(scene.particles, scene.levels, scene.strays);
     scene.leaf_work.assign(scene.levels.leaves.size(), {});

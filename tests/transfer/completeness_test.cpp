@@ -5,20 +5,30 @@
 #include <gtest/gtest.h>
 
 using support::Scene;
+using transfer::Basis;
 using transfer::Formulation;
 using transfer::StressUpdate;
 using transfer::Transfer;
 
 namespace
 {
-constexpr Formulation formulations[] = {Formulation::updated, Formulation::total};
+/// Formulations with their bases; in the total one boxes are points.
+struct Weights
+{
+    Formulation formulation;
+    Basis basis;
+};
+constexpr Weights all_weights[] = {{Formulation::updated, Basis::trilinear},
+                                   {Formulation::updated, Basis::gimp},
+                                   {Formulation::total, Basis::trilinear}};
 const Eigen::Matrix3d gradient = (Eigen::Matrix3d() << 0.3, -1.1, 0.7, 2.0, -0.4, 0.9, -0.6, 1.3, 0.5).finished();
 const Vec3 shift(0.4, -2.5, 1.7);
 
-transfer::PassOptions affine_options(Formulation formulation)
+transfer::PassOptions affine_options(const Weights& weights)
 {
     transfer::PassOptions options;
-    options.formulation = formulation;
+    options.formulation = weights.formulation;
+    options.basis = weights.basis;
     options.transfer = Transfer::apic;
     options.dt = 1e-9;
     return options;
@@ -38,12 +48,14 @@ Scene moved(const support::Topology& topology, const transfer::PassOptions& opti
 TEST(Completeness, a_constant_field_is_carried_exactly_and_strains_nothing)
 {
     for (const support::Topology& topology : support::topologies())
-        for (const Formulation formulation : formulations) {
-            const Scene scene = moved(topology, affine_options(formulation), Eigen::Matrix3d::Zero());
+        for (const Weights& weights : all_weights) {
+            const Scene scene = moved(topology, affine_options(weights), Eigen::Matrix3d::Zero());
             for (std::size_t p = 0; p < scene.particles.size(); ++p) {
                 ASSERT_LT((support::vector_of(scene.particles.velocity, p) - shift).norm(), 1e-14) << topology;
-                ASSERT_EQ(support::matrix_of(scene.particles.affine, p).norm(), 0) << topology;
-                ASSERT_EQ(support::stress_of(scene.particles, p).norm(), 0) << topology;
+                // Differences of equal velocities vanish exactly; boxes sum up slopes, to round-off.
+                const bool boxes = weights.basis == Basis::gimp;
+                ASSERT_LE(support::matrix_of(scene.particles.affine, p).norm(), boxes ? 1e-13 : 0) << topology;
+                ASSERT_LE(support::stress_of(scene.particles, p).norm(), boxes ? 1e-18 : 0) << topology;
             }
         }
 }
@@ -51,8 +63,8 @@ TEST(Completeness, a_constant_field_is_carried_exactly_and_strains_nothing)
 TEST(Completeness, a_linear_field_has_its_value_and_gradient_on_every_particle)
 {
     for (const support::Topology& topology : support::topologies())
-        for (const Formulation formulation : formulations) {
-            const Scene scene = moved(topology, affine_options(formulation), gradient);
+        for (const Weights& weights : all_weights) {
+            const Scene scene = moved(topology, affine_options(weights), gradient);
             for (std::size_t p = 0; p < scene.particles.size(); ++p) {
                 const Vec3 x = support::vector_of(scene.particles.rest_position, p);
                 ASSERT_LT((support::vector_of(scene.particles.velocity, p) - gradient * x - shift).norm(), 1e-13)
@@ -65,29 +77,30 @@ TEST(Completeness, a_linear_field_has_its_value_and_gradient_on_every_particle)
 TEST(Completeness, flip_adds_the_interpolated_change)
 {
     for (const support::Topology& topology : support::topologies())
-        for (const Real pic : {0.0, 0.3, 1.0}) {
-            transfer::PassOptions options = affine_options(Formulation::updated);
-            options.transfer = Transfer::flip;
-            options.pic_fraction = pic;
-            const Scene scene = moved(topology, options, gradient); // starts at rest, change = velocity
-            for (std::size_t p = 0; p < scene.particles.size(); ++p) {
-                const Vec3 x = support::vector_of(scene.particles.rest_position, p);
-                ASSERT_LT((support::vector_of(scene.particles.velocity, p) - gradient * x - shift).norm(), 1e-13)
-                    << topology;
+        for (const Basis basis : {Basis::trilinear, Basis::gimp})
+            for (const Real pic : {0.0, 0.3, 1.0}) {
+                transfer::PassOptions options = affine_options({Formulation::updated, basis});
+                options.transfer = Transfer::flip;
+                options.pic_fraction = pic;
+                const Scene scene = moved(topology, options, gradient); // starts at rest, change = velocity
+                for (std::size_t p = 0; p < scene.particles.size(); ++p) {
+                    const Vec3 x = support::vector_of(scene.particles.rest_position, p);
+                    ASSERT_LT((support::vector_of(scene.particles.velocity, p) - gradient * x - shift).norm(), 1e-13)
+                        << topology;
+                }
             }
-        }
 }
 
 // A.4, 11: particles that carry v = G x + w and C = G give the nodes that field, and get it back, also across levels.
 TEST(Completeness, affine_particles_map_a_linear_motion_to_the_nodes_and_back)
 {
     for (const support::Topology& topology : support::topologies())
-        for (const Formulation formulation : formulations)
+        for (const Weights& weights : all_weights)
             for (const StressUpdate update : {StressUpdate::usl, StressUpdate::musl}) {
-                transfer::PassOptions options = affine_options(formulation);
+                transfer::PassOptions options = affine_options(weights);
                 options.stress_update = update;
                 Scene scene = support::scene_of(topology, options, {support::soft_elastic()}, support::Layout::random);
-                if (formulation == Formulation::updated) support::disturb(6, scene);
+                if (weights.formulation == Formulation::updated) support::disturb(6, scene);
                 for (std::size_t p = 0; p < scene.particles.size(); ++p) {
                     const Vec3 v = gradient * support::vector_of(scene.particles.position, p) + shift;
                     for (std::size_t a = 0; a < 3; ++a) {

@@ -12,16 +12,18 @@
 #include <algorithm>
 
 using support::Scene;
+using transfer::Basis;
 using transfer::Formulation;
 using transfer::StressUpdate;
 using transfer::Transfer;
 
 namespace
 {
-transfer::PassOptions apic(Formulation formulation, StressUpdate update)
+transfer::PassOptions apic(Formulation formulation, StressUpdate update, Basis basis)
 {
     transfer::PassOptions options;
     options.formulation = formulation;
+    options.basis = basis;
     options.transfer = Transfer::apic;
     options.stress_update = update;
     options.dt = 1e-7;
@@ -44,7 +46,10 @@ void for_each_scheme(const Check& check)
     for (const support::Topology& topology : support::topologies())
         for (const Formulation formulation : {Formulation::updated, Formulation::total})
             for (const StressUpdate update : {StressUpdate::usl, StressUpdate::musl})
-                check(topology, apic(formulation, update));
+                for (const Basis basis : {Basis::trilinear, Basis::gimp}) {
+                    if (basis == Basis::gimp && formulation == Formulation::total) continue;
+                    check(topology, apic(formulation, update, basis));
+                }
 }
 
 std::size_t index_of(const grid::NodeAddress& at)
@@ -70,7 +75,8 @@ void expect_plain_momentum(const Scene& scene, const support::Topology& topology
     const std::vector<Vec3> expected = plain_momentum(scene);
     support::for_each_free_node(scene.levels, [&](const grid::NodeAddress& at, const Vec3&) {
         const auto& sum = scene.levels.sums(static_cast<std::size_t>(at.leaf))[at.node];
-        ASSERT_LE((support::vector_of(sum.momentum) - expected[index_of(at)]).norm(), 1e-13 * sum.mass) << topology;
+        ASSERT_LE((support::vector_of(sum.momentum) - expected[index_of(at)]).norm(), 1e-13 * sum.mass + 1e-20)
+            << topology;
     });
 }
 
@@ -150,10 +156,12 @@ TEST(InterfaceAffine, matrices_are_those_of_the_masters_positions)
     });
 }
 
-// Away from hanging corners C is the gradient that strains the particle; in cells with hanging corners it is not.
+// Away from hanging corners C is the gradient that strains the particle; in cells with hanging corners it is not, and
+// for boxes never.
 TEST(InterfaceAffine, matrices_are_velocity_gradients_in_all_other_cells)
 {
     for_each_scheme([](const support::Topology& topology, const transfer::PassOptions& options) {
+        if (options.basis == Basis::gimp) return;
         const Scene before = random_scene(topology, options);
         Scene after = before;
         take_matrices(after);
@@ -195,11 +203,13 @@ TEST(InterfaceAffine, matrices_stay_bounded_where_particles_sit_on_cell_faces)
         const Eigen::Matrix3d g = (Eigen::Matrix3d() << 0.3, -1.1, 0.7, 2.0, -0.4, 0.9, -0.6, 1.3, 0.5).finished();
         const Scene linear = moved([&](const Vec3& x) -> Vec3 { return g * x; });
         const Real finest = scene.levels.spacing(scene.levels.count - 1);
+        // Bounds of a box that lie on a plane but for rounding are moved onto it, by up to 1e-12 cells.
+        const Real tolerance = options.basis == Basis::gimp ? 1e-10 : 1e-12;
         for (std::size_t n = 0; n < all.size(); ++n) {
             // Differences of at most 2 over one spacing.
             ASSERT_LE(support::matrix_of(turbulent.particles.affine, n).cwiseAbs().maxCoeff(), 2.000001 / finest)
                 << topology;
-            ASSERT_LT((support::matrix_of(linear.particles.affine, n) - g).norm(), 1e-12) << topology;
+            ASSERT_LT((support::matrix_of(linear.particles.affine, n) - g).norm(), tolerance) << topology;
         }
     });
 }

@@ -6,6 +6,7 @@
 
 using support::DenseMpm;
 using support::Scene;
+using transfer::Basis;
 using transfer::Formulation;
 using transfer::StressUpdate;
 using transfer::Transfer;
@@ -71,6 +72,7 @@ struct Variant
     Formulation formulation;
     Transfer transfer;
     StressUpdate stress_update;
+    Basis basis;
 };
 
 std::vector<Variant> variants()
@@ -78,7 +80,8 @@ std::vector<Variant> variants()
     std::vector<Variant> all;
     for (const Formulation f : {Formulation::updated, Formulation::total})
         for (const Transfer t : {Transfer::flip, Transfer::apic})
-            for (const StressUpdate s : {StressUpdate::usl, StressUpdate::musl}) all.push_back({f, t, s});
+            for (const StressUpdate s : {StressUpdate::usl, StressUpdate::musl})
+                for (const Basis b : {Basis::trilinear, Basis::gimp}) all.push_back({f, t, s, b});
     return all;
 }
 
@@ -88,6 +91,7 @@ transfer::PassOptions options_of(const Variant& variant)
     options.formulation = variant.formulation;
     options.transfer = variant.transfer;
     options.stress_update = variant.stress_update;
+    options.basis = variant.basis;
     return options;
 }
 
@@ -95,7 +99,7 @@ std::string name_of(const Variant& v)
 {
     return std::string(v.formulation == Formulation::total ? "total" : "updated") +
            (v.transfer == Transfer::apic ? " apic" : " flip") +
-           (v.stress_update == StressUpdate::musl ? " musl" : " usl");
+           (v.stress_update == StressUpdate::musl ? " musl" : " usl") + (v.basis == Basis::gimp ? " gimp" : "");
 }
 
 /// Cells of 1 to 20 particles of two materials in a random state, drifting along the diagonal.

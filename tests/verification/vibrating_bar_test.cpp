@@ -17,6 +17,8 @@ struct Scheme
     solver::StressUpdate stress_update;
     bool refined;
     Real largest_error; // of the period, relative, on 32 cells
+    solver::Precision precision = solver::Precision::f64;
+    solver::Basis basis = solver::Basis::trilinear;
 };
 
 constexpr Real length = 25, period = 10, beta = std::numbers::pi / (2 * length);
@@ -30,15 +32,18 @@ Real period_error(const Scheme& scheme, int cells)
     problem.numerics.formulation = scheme.formulation;
     problem.numerics.transfer = scheme.transfer;
     problem.numerics.stress_update = scheme.stress_update;
+    problem.numerics.precision = scheme.precision;
+    problem.numerics.basis = scheme.basis;
     support::Job run = support::started(problem);
     const Real speed = 1e-4;
     support::set_wave([&](Real x) { return speed * std::sin(beta * x); },
                       [&](Real x) { return speed * beta * std::cos(beta * x); }, [](Real) { return 0; }, run);
     const auto amplitude = [&] {
+        const solver::OutputColumns columns(run.state);
+        const particles::Particles& particles = run.state.particles;
         Real sum = 0;
-        for (std::size_t p = 0; p < run.state.particles.size(); ++p)
-            sum += run.state.particles.mass[p] * run.state.particles.velocity[0][p] *
-                   std::sin(beta * run.state.particles.rest_position[0][p]);
+        for (std::size_t p = 0; p < particles.size(); ++p)
+            sum += particles.mass[p] * particles.velocity[0][p] * std::sin(beta * particles.rest_position[0][p]);
         return sum;
     };
     std::vector<Real> crossings;
@@ -59,6 +64,8 @@ TEST(VibratingBar, period_converges_with_second_order)
     using enum solver::Formulation;
     using enum solver::Transfer;
     using enum solver::StressUpdate;
+    constexpr auto f64 = solver::Precision::f64;
+    constexpr auto gimp = solver::Basis::gimp;
     constexpr Scheme schemes[] = {
         {"total flip", total, flip, usl, false, 5e-4},
         {"total apic", total, apic, usl, false, 1.5e-4},
@@ -68,6 +75,13 @@ TEST(VibratingBar, period_converges_with_second_order)
         {"total flip, two levels", total, flip, usl, true, 5e-4},
         {"total apic, two levels", total, apic, usl, true, 1.5e-4},
         {"updated flip, two levels", updated, flip, usl, true, 5e-4},
+        {"updated gimp flip", updated, flip, musl, false, 5e-4, f64, gimp},
+        {"updated gimp apic", updated, apic, usl, false, 1.5e-4, f64, gimp},
+        {"updated gimp flip, two levels", updated, flip, musl, true, 5e-4, f64, gimp},
+        {"nodal", total, nodal, usl, false, 1.5e-4},
+        {"nodal mixed", total, nodal, usl, false, 1.5e-4, solver::Precision::mixed},
+        {"nodal, two levels", total, nodal, usl, true, 1.5e-4},
+        {"nodal mixed, two levels", total, nodal, usl, true, 1.5e-4, solver::Precision::mixed},
     };
     for (const Scheme& scheme : schemes) {
         const Real coarse = period_error(scheme, 8), middle = period_error(scheme, 16), fine = period_error(scheme, 32);

@@ -1,0 +1,338 @@
+// Boxes of the basis gimp one by one: what the cutter makes of them against boxes cut by every plane of the finest
+// cells (tests/support/basis.h), on every topology; walls; same bits. Sums over many boxes: completeness, conservation,
+// reference and interface_affine tests.
+#include "transfer/gimp_box.h"
+
+#include "grid/halo.h"
+#include "grid/interface.h"
+#include "grid/momentum.h"
+#include "tests/support/basis.h"
+#include "transfer/gimp_cover.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+using support::Scene;
+using transfer::Basis;
+using transfer::StressUpdate;
+using transfer::Transfer;
+
+namespace
+{
+transfer::PassOptions boxes(Transfer transfer, StressUpdate update = StressUpdate::usl)
+{
+    transfer::PassOptions options;
+    options.formulation = transfer::Formulation::updated;
+    options.transfer = transfer;
+    options.stress_update = update;
+    options.basis = Basis::gimp;
+    options.dt = 1e-7;
+    return options;
+}
+
+/// Random particles, some of them strays, sizes from their cells but for every third, which is as coarse as level 0.
+Scene random_boxes(const support::Topology& topology, const transfer::PassOptions& options, bool mixed_sizes)
+{
+    Scene scene = support::scene_of(topology, options, {support::soft_elastic()}, support::Layout::random);
+    support::randomise_state(61, scene);
+    if (mixed_sizes)
+        for (std::size_t p = 0; p < scene.particles.size(); p += 3) scene.particles.size_level[p] = 0;
+    support::disturb(62, scene); // covers the boxes
+    return scene;
+}
+
+std::vector<transfer::BoxPart> parts_of(const Scene& scene, std::size_t p)
+{
+    const transfer::BoxCutter cutter(scene.options, scene.levels, scene.refinement);
+    std::size_t home = 0;
+    while (scene.levels.cell_start[(home + 1) * grid::leaf_cells] <= p) ++home;
+    transfer::BoxParts parts;
+    cutter.cut(scene.particles, p, home, parts);
+    EXPECT_FALSE(parts.outside);
+    return parts.part;
+}
+
+/// `visit(weight, slope, arm)` for all nodes of a part.
+template <class Visit>
+void for_nodes(const transfer::BoxPart& part, const Visit& visit)
+{
+    const transfer::BoxAxis &x = part.axis[0], &y = part.axis[1], &z = part.axis[2];
+    for (int i = 0; i < x.count; ++i)
+        for (int j = 0; j < y.count; ++j)
+            for (int k = 0; k < z.count; ++k)
+                visit(x.weight[i] * y.weight[j] * z.weight[k],
+                      Vec3(x.slope[i] * y.weight[j] * z.weight[k], x.weight[i] * y.slope[j] * z.weight[k],
+                           x.weight[i] * y.weight[j] * z.slope[k]),
+                      Vec3(x.arm[i], y.arm[j], z.arm[k]));
+}
+} // namespace
+
+// A.4, 1.
+TEST(Gimp, weights_are_a_partition_of_unity_and_linearly_complete)
+{
+    for (const support::Topology& topology : support::topologies())
+        for (const Transfer transfer : {Transfer::flip, Transfer::apic})
+            for (const int per_axis : {1, 2, 3}) {
+                transfer::PassOptions options = boxes(transfer);
+                options.per_axis = per_axis;
+                const Scene scene = random_boxes(topology, options, true);
+                for (std::size_t p = 0; p < scene.particles.size(); ++p) {
+                    Real unity = 0;
+                    Vec3 centre = Vec3::Zero(), none = Vec3::Zero();
+                    Eigen::Matrix3d identity = Eigen::Matrix3d::Zero();
+                    for (const transfer::BoxPart& part : parts_of(scene, p))
+                        for_nodes(part, [&](Real w, const Vec3& slope, const Vec3& arm) {
+                            unity += w;
+                            centre += w * arm;
+                            none += slope;
+                            identity += arm * slope.transpose();
+                        });
+                    const Real h = scene.levels.spacing0;
+                    ASSERT_NEAR(unity, 1, 1e-12) << topology;
+                    ASSERT_LT(centre.norm(), 1e-12 * h) << topology;
+                    ASSERT_LT(none.norm() * h, 1e-12) << topology;
+                    ASSERT_LT((identity - Eigen::Matrix3d::Identity()).norm(), 1e-12) << topology;
+                }
+            }
+}
+
+// Any nodal field, not only a linear one: values and gradients of the particles are those of the plain basis.
+TEST(Gimp, particles_read_the_plain_basis)
+{
+    for (const support::Topology& topology : support::topologies())
+        for (const bool mixed_sizes : {false, true}) {
+            Scene scene = random_boxes(topology, boxes(Transfer::apic), mixed_sizes);
+            support::Random random(63);
+            support::prescribe_motion([&](const Vec3&) { return random.vector(-1, 1); }, scene.levels);
+            Scene after = scene;
+            after.options.dt = 1;
+            after.particles.stress.fill(particles::Column(scene.particles.size(), 0));
+            transfer::advance_and_scatter(after.options, after.laws, after.strays, after.particles, after.levels,
+                                          after.leaf_work);
+            for (std::size_t p = 0; p < scene.particles.size(); ++p) {
+                Vec3 velocity = Vec3::Zero();
+                Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+                for (const support::Share& share : support::basis_of(scene, p)) {
+                    const auto& node = scene.levels.motions(static_cast<std::size_t>(share.node.leaf))[share.node.node];
+                    velocity += share.weight * support::vector_of(node.velocity);
+                    gradient += support::vector_of(node.velocity) * share.slope.transpose();
+                }
+                ASSERT_LT((support::vector_of(after.particles.velocity, p) - velocity).norm(), 1e-12) << topology;
+                const Real half = gradient.trace() / 2;
+                ASSERT_NEAR(after.particles.volume_ratio[p] * (1 - half), 1 + half, 1e-10) << topology;
+            }
+        }
+}
+
+TEST(Gimp, nodes_get_the_plain_sums)
+{
+    for (const support::Topology& topology : support::topologies())
+        for (const Transfer transfer : {Transfer::flip, Transfer::apic})
+            for (const bool mixed_sizes : {false, true}) {
+                Scene scene = random_boxes(topology, boxes(transfer), mixed_sizes);
+                for (material::Material& m : scene.laws.materials) m.cell_averaged_dilatation = false;
+                for (transfer::LawConstants& c : scene.laws.constants) c.averaged_dilatation = false;
+                support::gather_sums(scene);
+                const auto index = [](const grid::NodeAddress& at) {
+                    return static_cast<std::size_t>(at.leaf) * grid::tile_nodes + static_cast<std::size_t>(at.node);
+                };
+                std::vector<Real> mass(scene.levels.sum.size(), 0);
+                std::vector<Vec3> momentum(mass.size(), Vec3::Zero()), force = momentum;
+                for (std::size_t p = 0; p < scene.particles.size(); ++p)
+                    for (const support::Share& share : support::basis_of(scene, p)) {
+                        const std::size_t n = index(share.node);
+                        const Real m = scene.particles.mass[p] * share.weight;
+                        Vec3 v = support::vector_of(scene.particles.velocity, p);
+                        if (transfer == Transfer::apic)
+                            v += support::matrix_of(scene.particles.affine, p) *
+                                 (share.position - support::vector_of(scene.particles.position, p));
+                        mass[n] += m;
+                        momentum[n] += m * v;
+                        force[n] -=
+                            scene.particles.rest_volume[p] * support::stress_of(scene.particles, p) * share.slope;
+                    }
+                support::for_each_free_node(scene.levels, [&](const grid::NodeAddress& at, const Vec3&) {
+                    const auto& sum = scene.levels.sums(static_cast<std::size_t>(at.leaf))[at.node];
+                    const std::size_t n = index(at);
+                    ASSERT_NEAR(sum.mass, mass[n], 1e-12 * mass[n] + 1e-20) << topology;
+                    ASSERT_LT((support::vector_of(sum.momentum) - momentum[n]).norm(), 1e-12 * mass[n] + 1e-20)
+                        << topology;
+                    ASSERT_LT((support::vector_of(sum.force) - force[n]).norm(), 1e-13) << topology;
+                });
+            }
+}
+
+TEST(Gimp, any_number_of_threads_gives_the_same_bits)
+{
+    for (const support::Topology& topology : support::topologies())
+        for (const Transfer transfer : {Transfer::flip, Transfer::apic})
+            for (const StressUpdate update : {StressUpdate::usl, StressUpdate::musl}) {
+                const auto run_on = [&](int threads) {
+                    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                                    static_cast<std::size_t>(threads));
+                    tbb::task_arena arena(threads);
+                    return arena.execute([&] {
+                        Scene scene = random_boxes(topology, boxes(transfer, update), false);
+                        transfer::scatter(scene.options, scene.laws, scene.strays, scene.particles, scene.levels);
+                        for (int n = 0; n < 5; ++n) support::advance(2e-5, scene);
+                        return scene.particles;
+                    });
+                };
+                const particles::Particles one = run_on(1), two = run_on(2), four = run_on(4);
+                for (const particles::Particles* other : {&two, &four}) {
+                    EXPECT_EQ(one.velocity, other->velocity) << topology;
+                    EXPECT_EQ(one.position, other->position) << topology;
+                    EXPECT_EQ(one.stress, other->stress) << topology;
+                }
+            }
+}
+
+// In the total formulation, and where every box lies in one cell, boxes are points.
+TEST(Gimp, boxes_at_rest_are_points)
+{
+    for (const support::Topology& topology : support::topologies())
+        for (const transfer::Formulation formulation : {transfer::Formulation::updated, transfer::Formulation::total}) {
+            const auto sums = [&](Basis basis) {
+                transfer::PassOptions options = boxes(Transfer::flip);
+                options.formulation = formulation;
+                options.basis = basis;
+                Scene scene = support::scene_of(topology, options, {support::soft_elastic()}, support::Layout::regular);
+                transfer::refine_voids(scene.options, scene.levels, scene.particles, scene.refinement);
+                support::order(scene);
+                support::randomise_state(64, scene);
+                support::gather_sums(scene);
+                std::vector<Vec3> force;
+                support::for_each_free_node(scene.levels, [&](const grid::NodeAddress& at, const Vec3&) {
+                    const auto& sum = scene.levels.sums(static_cast<std::size_t>(at.leaf))[at.node];
+                    if (sum.mass > 0) force.push_back(support::vector_of(sum.force));
+                });
+                return force;
+            };
+            const std::vector<Vec3> points = sums(Basis::trilinear), extended = sums(Basis::gimp);
+            ASSERT_EQ(points.size(), extended.size()) << topology;
+            for (std::size_t n = 0; n < points.size(); ++n)
+                ASSERT_LT((points[n] - extended[n]).norm(), 1e-13) << topology;
+        }
+}
+
+namespace
+{
+/// Step with walls, without ordering.
+void step(Scene& scene, Real dt)
+{
+    scene.options.dt = dt;
+    const std::vector<Real> no_cutoff(static_cast<std::size_t>(scene.levels.count), Real(0));
+    grid::assemble_sums(scene.levels);
+    grid::restrict_sums(scene.levels);
+    grid::advance_momentum(scene.options.walls, Vec3::Zero(), no_cutoff, dt, scene.levels);
+    grid::prolong_motion(scene.levels);
+    grid::fill_motion_halos(scene.levels);
+    if (scene.options.stress_update == StressUpdate::musl) {
+        transfer::remap_momentum(scene.options, scene.strays, scene.particles, scene.levels);
+        grid::assemble_momentum(scene.levels);
+        grid::restrict_momentum(scene.levels);
+        grid::remap_velocity(scene.options.walls, no_cutoff, scene.levels);
+        grid::prolong_motion(scene.levels);
+        grid::fill_motion_halos(scene.levels);
+    }
+    transfer::advance_and_scatter(scene.options, scene.laws, scene.strays, scene.particles, scene.levels,
+                                  scene.leaf_work);
+    ASSERT_FALSE(scene.strays.outside);
+}
+
+/// Random particles at x > origin, their mirror images on the other side as well if `whole`.
+Scene mirrored_block(const support::Topology& topology, const transfer::PassOptions& options, bool whole)
+{
+    Scene scene = support::scene_of(topology, options, {support::soft_elastic()}, support::Layout::random);
+    support::randomise_state(66, scene);
+    particles::Particles& p = scene.particles;
+    std::vector<std::uint32_t> right;
+    const Real wall = scene.levels.origin[0];
+    for (std::uint32_t n = 0; n < p.size(); ++n)
+        if (p.position[0][n] > wall) right.push_back(n);
+    // Every particle twice (the second half becomes the image), or once.
+    const std::size_t half = right.size(), count = whole ? 2 * half : half;
+    const auto pick = [&](const auto&, auto& column) {
+        if (column.empty()) return;
+        auto chosen = column;
+        chosen.resize(count);
+        for (std::size_t n = 0; n < count; ++n) chosen[n] = column[right[n % half]];
+        column = std::move(chosen);
+    };
+    particles::Particles::for_each_real(p, pick);
+    particles::Particles::for_each_integer(p, pick);
+    for (std::uint32_t n = 0; n < count; ++n) {
+        p.id[n] = n;
+        if (n < half) continue;
+        p.position[0][n] = 2 * wall - p.position[0][n];
+        p.velocity[0][n] = -p.velocity[0][n];
+        p.stress[3][n] = -p.stress[3][n];
+        p.stress[5][n] = -p.stress[5][n];
+        for (const std::size_t entry : {1U, 2U, 3U, 6U})
+            if (!p.affine[entry].empty()) p.affine[entry][n] = -p.affine[entry][n];
+    }
+    support::order(scene);
+    return scene;
+}
+} // namespace
+
+// A symmetric block and its half with a symmetry plane, boxes reaching through it.
+TEST(Gimp, half_a_block_moves_like_the_whole_one)
+{
+    const support::Topology coarse = support::topology_of("one level", 1, 2, [](const auto&) { return false; });
+    const support::Topology fine = support::topology_of(
+        "two levels", 2, 2, [](const auto& key) { return key.cell[1] < 0; }); // the interface meets the wall
+    for (const support::Topology& topology : {coarse, fine})
+        for (const Transfer transfer : {Transfer::flip, Transfer::apic})
+            for (const StressUpdate update : {StressUpdate::usl, StressUpdate::musl}) {
+                transfer::PassOptions options = boxes(transfer, update);
+                Scene whole = mirrored_block(topology, options, true);
+                options.walls = {{0, 0}};
+                Scene half = mirrored_block(topology, options, false);
+                for (int n = 0; n < 5; ++n) {
+                    step(whole, 1e-6);
+                    step(half, 1e-6);
+                }
+                std::vector<std::size_t> place(whole.particles.size());
+                for (std::size_t p = 0; p < place.size(); ++p) place[whole.particles.id[p]] = p;
+                for (std::size_t p = 0; p < half.particles.size(); ++p) {
+                    const std::size_t q = place[half.particles.id[p]];
+                    ASSERT_LT((support::vector_of(half.particles.velocity, p) -
+                               support::vector_of(whole.particles.velocity, q))
+                                  .norm(),
+                              1e-11)
+                        << topology;
+                    ASSERT_LT((support::stress_of(half.particles, p) - support::stress_of(whole.particles, q)).norm(),
+                              1e-9)
+                        << topology;
+                }
+            }
+}
+
+// Fine particles at a free surface reach into coarse cells without particles: those become fine, others stay.
+TEST(Gimp, empty_coarse_cells_that_fine_boxes_reach_are_refined)
+{
+    const support::Topology topology =
+        support::topology_of("flat face", 2, 2, [](const auto& key) { return key.cell[0] < 0; });
+    Scene scene =
+        support::scene_of(topology, boxes(Transfer::flip), {support::soft_elastic()}, support::Layout::regular);
+    for (Real& y : scene.particles.position[1]) y += 0.05;
+    const Index3 beyond(-1, 2, 0), metal(0, 1, 0), far(-1, 3, 0);
+    EXPECT_FALSE(scene.refinement.subdivided(0, beyond));
+    transfer::refine_voids(scene.options, scene.levels, scene.particles, scene.refinement);
+    EXPECT_TRUE(scene.refinement.subdivided(0, beyond));
+    EXPECT_FALSE(scene.refinement.subdivided(0, metal)); // coarse particles sit in it
+    EXPECT_FALSE(scene.refinement.subdivided(0, far));
+    support::order(scene);
+    const transfer::BoxCutter cutter(scene.options, scene.levels, scene.refinement);
+    EXPECT_FALSE(scene.strays.outside);
+    for (std::size_t n = 0; n < scene.levels.leaves.size(); ++n)
+        for (std::uint32_t p = scene.levels.cell_start[n * grid::leaf_cells];
+             p < scene.levels.cell_start[(n + 1) * grid::leaf_cells]; ++p)
+        {
+            transfer::BoxParts parts;
+            cutter.cut(scene.particles, p, n, parts);
+            ASSERT_FALSE(parts.outside);
+        }
+}
