@@ -58,7 +58,7 @@ TEST_F(PointCase, values_arrive)
     EXPECT_EQ(first.steps, 20);
     EXPECT_EQ(first.strain[0], 0.01);
     EXPECT_EQ(first.strain[4], -0.002);
-    for (const std::size_t i : {1, 2, 3, 5}) EXPECT_FALSE(first.strain[i]) << i;
+    for (const std::size_t i : {1U, 2U, 3U, 5U}) EXPECT_FALSE(first.strain[i]) << i;
     EXPECT_EQ(first.stress.s, (std::array<Real, 6>{0, 1000, 0, 0, 0, 0}));
     EXPECT_EQ(read.path.segments[1].rotation.v, (std::array<Real, 3>{0, 0, 0.5}));
 }
