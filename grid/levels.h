@@ -56,6 +56,7 @@ struct alignas(32) NodeForce
 {
     std::array<Real, 3> force; // N
     Real per_mass;             // 1/g, 0: never moves (no mass, or a slave)
+    Real mass() const { return per_mass > 0 ? 1 / per_mass : Real(0); }
 };
 
 /// Tile indices [lower, upper] per axis; empty if upper < lower.
@@ -64,6 +65,9 @@ struct NodeBox
     std::array<std::int8_t, 3> lower{tile_side, tile_side, tile_side};
     std::array<std::int8_t, 3> upper{-1, -1, -1};
 };
+
+/// Every node of a tile.
+inline constexpr NodeBox whole_tile{{0, 0, 0}, {leaf_side, leaf_side, leaf_side}};
 
 struct Leaf
 {

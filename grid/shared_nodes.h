@@ -7,9 +7,6 @@
 
 namespace grid
 {
-/// Every node of a tile.
-inline constexpr NodeBox whole_tile{{0, 0, 0}, {leaf_side, leaf_side, leaf_side}};
-
 /// Ranges of the nodes one leaf shares with its neighbour in direction `axes` (bit a set: one step along axis a), as
 /// far as they lie in `box` along the other axes. Calls visit(own node, halo node of the lower partner) for each.
 template <class Visit>

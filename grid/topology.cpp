@@ -4,7 +4,9 @@
 
 #include "grid/interface.h"
 
+#include <algorithm>
 #include <openvdb/openvdb.h>
+#include <tuple>
 
 namespace grid
 {
@@ -102,9 +104,6 @@ void build(const std::vector<CellKey>& occupied, Levels& levels)
     build_interfaces(levels);
 }
 
-namespace
-{
-/// Leaf cells of the hierarchy, in storage order.
 std::vector<CellKey> active_cells(const Levels& levels)
 {
     std::vector<CellKey> cells;
@@ -114,7 +113,19 @@ std::vector<CellKey> active_cells(const Levels& levels)
                 cells.push_back({levels.leaves[n].level, levels.leaves[n].origin + Index3(c / 64, c / 8 % 8, c % 8)});
     return cells;
 }
-} // namespace
+
+bool before(const CellKey& a, const CellKey& b)
+{
+    return std::tie(a.level, a.cell[0], a.cell[1], a.cell[2]) < std::tie(b.level, b.cell[0], b.cell[1], b.cell[2]);
+}
+
+void sort_unique(std::vector<CellKey>& cells)
+{
+    std::sort(cells.begin(), cells.end(), before);
+    cells.erase(std::unique(cells.begin(), cells.end(),
+                            [](const CellKey& a, const CellKey& b) { return !before(a, b) && !before(b, a); }),
+                cells.end());
+}
 
 void restore(Levels& levels)
 {

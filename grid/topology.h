@@ -27,4 +27,13 @@ std::int32_t leaf_of(const Levels& levels, int level, const Index3& node);
 
 /// leaf * 512 + cell of an active leaf cell, or -1 if the cell is not active.
 std::int64_t active_slot(const Levels& levels, int level, const Index3& cell);
+
+/// Leaf cells of the hierarchy, in storage order.
+std::vector<CellKey> active_cells(const Levels& levels);
+
+/// Order by level, then by index: coarse cells first.
+bool before(const CellKey& a, const CellKey& b);
+
+/// Sort in that order and keep each cell once.
+void sort_unique(std::vector<CellKey>& cells);
 } // namespace grid

@@ -33,14 +33,6 @@ void fix_walls(const std::vector<WallPlane>& walls, const Leaf& leaf, NodeMotion
     }
 }
 
-template <class Visit>
-void for_owned_nodes(const Visit& visit)
-{
-    for (int i = 0; i < leaf_side; ++i)
-        for (int j = 0; j < leaf_side; ++j)
-            for (int k = 0; k < leaf_side; ++k) visit(tile_index(i, j, k));
-}
-
 /// `visit(node)` for the nodes of a box up to index `last` along each axis.
 template <class Visit>
 void for_nodes(const NodeBox& box, int last, const Visit& visit)
@@ -49,5 +41,11 @@ void for_nodes(const NodeBox& box, int last, const Visit& visit)
     for (int i = box.lower[0]; i <= end(0); ++i)
         for (int j = box.lower[1]; j <= end(1); ++j)
             for (int k = box.lower[2]; k <= end(2); ++k) visit(tile_index(i, j, k));
+}
+
+template <class Visit>
+void for_owned_nodes(const Visit& visit)
+{
+    for_nodes(whole_tile, leaf_side - 1, visit);
 }
 } // namespace grid

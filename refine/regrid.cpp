@@ -5,6 +5,7 @@
 #include "grid/topology.h"
 #include "particles/order.h"
 #include "particles/split.h"
+#include "transfer/scaled_position.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +15,6 @@ namespace refine
 {
 namespace
 {
-Vec3 scaled(const grid::Levels& levels, const std::array<particles::Column, 3>& at, std::size_t p)
-{
-    // The product, not the quotient: the same rounding as in the kernels (transfer/chunk.h).
-    return (Vec3(at[0][p], at[1][p], at[2][p]) - levels.origin) * (Real(1) / levels.spacing0);
-}
-
 std::vector<grid::CellKey> locate_all(const grid::Levels& levels, const grid::Refinement& refinement,
                                       const std::array<particles::Column, 3>& at, const particles::Particles& particles)
 {
@@ -32,7 +27,7 @@ std::vector<grid::CellKey> locate_all(const grid::Levels& levels, const grid::Re
     constexpr std::size_t block = 4096;
     core::parallel_for((count + block - 1) / block, [&](std::size_t b) {
         for (std::size_t p = b * block; p < std::min(count, (b + 1) * block); ++p)
-            key[p] = refinement.locate(scaled(levels, at, p));
+            key[p] = refinement.locate(transfer::scaled_position(levels, at, p));
     });
     return key;
 }
@@ -51,7 +46,7 @@ grid::Refinement refinement_from_targets(const grid::Levels& levels, const parti
     for (std::size_t p = 0; p < particles.size(); ++p) {
         const int target = particles.target_level[p];
         if (target == 0) continue;
-        const Vec3 at = scaled(levels, particles.position, p) * static_cast<Real>(1 << (target - 1));
+        const Vec3 at = transfer::scaled_position(levels, particles.position, p) * static_cast<Real>(1 << (target - 1));
         refinement.subdivide(target - 1,
                              Index3(static_cast<int>(std::floor(at[0])), static_cast<int>(std::floor(at[1])),
                                     static_cast<int>(std::floor(at[2]))));
@@ -80,13 +75,7 @@ void order(transfer::Formulation formulation, const grid::Refinement& refinement
     const auto& at = formulation == transfer::Formulation::total ? particles.rest_position : particles.position;
     const auto key = locate_all(levels, refinement, at, particles);
     std::vector<grid::CellKey> occupied = key;
-    const auto before = [](const grid::CellKey& a, const grid::CellKey& b) {
-        return std::tie(a.level, a.cell[0], a.cell[1], a.cell[2]) < std::tie(b.level, b.cell[0], b.cell[1], b.cell[2]);
-    };
-    std::sort(occupied.begin(), occupied.end(), before);
-    occupied.erase(std::unique(occupied.begin(), occupied.end(),
-                               [&](const auto& a, const auto& b) { return !before(a, b) && !before(b, a); }),
-                   occupied.end());
+    grid::sort_unique(occupied);
     grid::build(occupied, levels);
 
     std::vector<std::size_t> slot(key.size());

@@ -1,6 +1,7 @@
 #include "solver/audit.h"
 
 #include "core/parallel.h"
+#include "grid/walls.h"
 #include "material/elastic.h"
 #include "particles/tensors.h"
 #include "transfer/solid_share.h"
@@ -30,16 +31,14 @@ std::vector<Ledger> audit_nodes(const Prepared& prepared, const State& state)
     transfer::survey_lattice(prepared.laws, state.lattice, state.particles, levels, survey);
     core::parallel_for(leaf.size(), [&](std::size_t n) {
         leaf[n].elastic = survey[n].elastic;
-        for (int cell = 0; cell < grid::leaf_cells; ++cell) { // the node at a cell's lower corner is owned
-            const int node = grid::tile_index(cell >> 6, cell >> 3 & 7, cell & 7);
-            const Real per_mass = levels.forces(n)[node].per_mass;
-            const Real mass = per_mass > 0 ? 1 / per_mass : Real(0);
+        grid::for_owned_nodes([&](int node) {
+            const Real mass = levels.forces(n)[node].mass();
             const grid::NodeMotion& motion = levels.motions(n)[node];
             for (std::size_t a = 0; a < 3; ++a) {
                 leaf[n].kinetic += mass * motion.velocity[a] * motion.velocity[a] / 2;
                 leaf[n].external += mass * prepared.gravity[static_cast<int>(a)] * motion.change[a];
             }
-        }
+        });
     });
     return leaf;
 }

@@ -82,7 +82,7 @@ Held held_at(const grid::Levels& levels, const NodeAddress& at)
     const auto leaf = static_cast<std::size_t>(at.leaf);
     if (levels.sum.empty()) {
         const grid::NodeForce& node = levels.forces(leaf)[at.node];
-        return {node.per_mass > 0 ? 1 / node.per_mass : Real(0), {}, node.force};
+        return {node.mass(), {}, node.force};
     }
     const grid::NodeSum& node = levels.sums(leaf)[at.node];
     return {node.mass, node.momentum, node.force};

@@ -26,13 +26,14 @@ def read_curve(directory):
     return opening, force
 
 
-def read_last_frame(directory):
-    series = json.loads((directory / "particles" / "particles.hdf.series").read_text())
-    last = max(series["files"], key=lambda entry: entry["time"])
-    with h5py.File(directory / "particles" / last["name"], "r") as file:
-        data = file["VTKHDF/PointData"]
+def read_frame(directory, time=None):
+    """Particle frame nearest to `time`, the last without one: time, points, point data by name, particle sides."""
+    files = json.loads((directory / "particles" / "particles.hdf.series").read_text())["files"]
+    entry = max(files, key=lambda e: e["time"]) if time is None else min(files, key=lambda e: abs(e["time"] - time))
+    with h5py.File(directory / "particles" / entry["name"], "r") as file:
+        data = {name: column[:] for name, column in file["VTKHDF/PointData"].items()}
         side = file["particle_side"][:] if "particle_side" in file else None
-        return (last["time"], file["VTKHDF/Points"][:], data["eq_plastic_strain"][:], data["damage"][:], side)
+        return entry["time"], file["VTKHDF/Points"][:], data, side
 
 
 def draw_curve(axes, directory):
@@ -53,7 +54,8 @@ def draw_curve(axes, directory):
 
 
 def draw_specimen(axes, figure, directory):
-    time, points, strain, damage, side = read_last_frame(directory)
+    time, points, data, side = read_frame(directory)
+    strain, damage = data["eq_plastic_strain"], data["damage"]
     lowest = points[:, 2].min() + (side.max() if side is not None else 0.3)
     middle = points[:, 2] < lowest
     size = (side[middle] if side is not None else np.full(middle.sum(), 0.15)) * 14

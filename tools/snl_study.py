@@ -14,12 +14,13 @@ import pathlib
 import subprocess
 import sys
 
-import h5py
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+
+from picture_of_run import read_curve, read_frame
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PLAIN = ['material.steel.dilatation="point"']
@@ -73,14 +74,6 @@ def run(program, case, name, directory):
     print(f"{name}: {'done' if code == 0 else f'ended with code {code}, see {log}'}", flush=True)
 
 
-def curve(directory):
-    with open(directory / "history.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    opening = np.array([float(row["cod_mm"]) for row in rows])
-    force = np.array([(float(row["force_upper_N"]) + float(row["force_lower_N"])) / 2 for row in rows])
-    return opening, force
-
-
 def smooth(opening, force, width=0.05):
     """Mean over `width` mm of opening, against the ringing."""
     at = np.arange(width / 2, opening.max(), width / 2)
@@ -89,22 +82,14 @@ def smooth(opening, force, width=0.05):
 
 
 def force_near(directory, opening):
-    x, f = curve(directory)
+    x, f = read_curve(directory)
     near = np.abs(x - opening) < 0.05
     return float(f[near].mean()) if near.any() else float("nan")
 
 
-def frame(directory, time=None):
-    series = json.loads((directory / "particles" / "particles.hdf.series").read_text())["files"]
-    entry = max(series, key=lambda e: e["time"]) if time is None else min(series, key=lambda e: abs(e["time"] - time))
-    with h5py.File(directory / "particles" / entry["name"], "r") as file:
-        data = file["VTKHDF/PointData"]
-        return (entry["time"], file["VTKHDF/Points"][:], data["damage"][:], data["failure_mode"][:],
-                data["eq_plastic_strain"][:], file["particle_side"][:])
-
-
 def draw_pattern(axes, directory, time=None, title=None):
-    at_time, points, damage, failed, strain, side = frame(directory, time)
+    at_time, points, data, side = read_frame(directory, time)
+    damage, failed, strain = data["damage"], data["failure_mode"], data["eq_plastic_strain"]
     middle = points[:, 2] < points[:, 2].min() + side.max()
     x, y = points[middle, 0], points[middle, 1]
     broken = damage[middle] > 0
@@ -123,7 +108,7 @@ def draw_curves(path, results, names, reference):
     figure, axes = plt.subplots(figsize=(7, 4.2))
     for name in names:
         if name in results:
-            axes.plot(*[v / s for v, s in zip(smooth(*curve(results[name])), (1, 1000))], linewidth=1.2, label=VARIANTS[name][0])
+            axes.plot(*[v / s for v, s in zip(smooth(*read_curve(results[name])), (1, 1000))], linewidth=1.2, label=VARIANTS[name][0])
     for marker, (who, numbers) in zip("os", reference.items()):
         axes.plot([numbers[f"c{k}_cod_mm"] for k in (1, 2, 3)], [numbers[f"c{k}_force_N"] / 1000 for k in (1, 2, 3)], marker,
                   color="0.2", markersize=5, markerfacecolor="none" if marker == "s" else "0.2", label=f"{who}: crack initiations")

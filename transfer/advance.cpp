@@ -63,10 +63,7 @@ void add_work(const std::vector<LeafOutcome>& outcome, std::vector<LeafWork>& le
 void record_onsets(const std::vector<LeafOutcome>& outcome, particles::Particles& particles)
 {
     for (const LeafOutcome& leaf : outcome)
-        for (const Onset& onset : leaf.onset) {
-            particles.crack[onset.particle] = static_cast<std::int32_t>(particles.cracks.size());
-            particles.cracks.push_back(onset.crack);
-        }
+        for (const Onset& onset : leaf.onset) record(onset, particles);
 }
 
 /// Who is away from its home cell now; once away, a particle stays a stray until the next ordering.

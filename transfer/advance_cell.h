@@ -8,6 +8,7 @@
 #include "material/von_mises.h"
 #include "particles/tensors.h"
 #include "transfer/chunk.h"
+#include "transfer/middle_gradient.h"
 #include "transfer/passes.h"
 #include "transfer/separate_lanes.h"
 
@@ -65,15 +66,9 @@ struct Kinematics
         middle.m[n] = f.m[n] + Lanes(Real(0.5)) * rate_increment.m[n];
         store(f.m[n] + rate_increment.m[n], particles.deformation_gradient[n], begin, count);
     }
-    const core::Mat<Lanes> cof = core::cofactor(middle);
-    const Lanes jacobian = middle(0, 0) * cof(0, 0) + middle(0, 1) * cof(0, 1) + middle(0, 2) * cof(0, 2);
-    const Lanes per_jacobian = Lanes(Real(1)) / jacobian;
+    Lanes jacobian;
+    const core::Mat<Lanes> l = middle_gradient(rate_increment, middle, jacobian);
     volume *= jacobian;
-    core::Mat<Lanes> l;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            l(i, j) = per_jacobian * (rate_increment(i, 0) * cof(j, 0) + rate_increment(i, 1) * cof(j, 1) +
-                                      rate_increment(i, 2) * cof(j, 2));
     return l;
 }
 

@@ -5,6 +5,7 @@
 #include "material/rotation.h"
 #include "material/von_mises.h"
 #include "transfer/lattice.h"
+#include "transfer/middle_gradient.h"
 #include "transfer/separate_lanes.h"
 #include "transfer/set_aside.h"
 
@@ -35,13 +36,8 @@ template <class T>
         // F in the middle of the step; `displacement` belongs to its end.
         core::Mat<V> middle = deformation_at(work.displacement, s, context.per_spacing);
         for (std::size_t n = 0; n < 9; ++n) middle.m[n] -= V(Real(0.5)) * increment.m[n];
-        const core::Mat<V> cof = core::cofactor(middle);
-        const V jacobian = middle(0, 0) * cof(0, 0) + middle(0, 1) * cof(0, 1) + middle(0, 2) * cof(0, 2);
-        const V per_jacobian = V(Real(1)) / jacobian;
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j)
-                work.gradient[s](i, j) = per_jacobian * (increment(i, 0) * cof(j, 0) + increment(i, 1) * cof(j, 1) +
-                                                         increment(i, 2) * cof(j, 2));
+        V jacobian;
+        work.gradient[s] = middle_gradient(increment, middle, jacobian);
         work.volume[s] = work.rest_volume[s] * jacobian;
     }
 }
@@ -218,8 +214,7 @@ void record_onsets(Lattice& lattice, const grid::Levels& levels, particles::Part
         if (lattice.onset[n].empty()) continue;
         const std::uint32_t* start = levels.cell_start.data() + n * grid::leaf_cells;
         for (const Onset& onset : lattice.onset[n]) {
-            particles.crack[onset.particle] = static_cast<std::int32_t>(particles.cracks.size());
-            particles.cracks.push_back(onset.crack);
+            record(onset, particles);
             const auto cell = std::upper_bound(start, start + grid::leaf_cells + 1, onset.particle) - start - 1;
             lattice.cracked[n * grid::leaf_cells + static_cast<std::size_t>(cell)] = 1;
         }

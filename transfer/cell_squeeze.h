@@ -2,10 +2,9 @@
 #pragma once
 
 #include "core/real.h"
+#include "core/simd.h"
 #include "core/tensor.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace transfer
@@ -20,14 +19,16 @@ inline constexpr Real deformed_step_share = 0.63;
 inline constexpr Real unstable_step_share = 1;
 
 /// Width of a cell over its smallest width after the deformation F: max over axes of |F^{-T} e_a|, infinite if J <= 0.
-inline Real cell_squeeze(const core::Mat<Real>& f)
+/// T is a number or a core::Pack.
+template <class T>
+T cell_squeeze(const core::Mat<T>& f)
 {
-    const Real jacobian = core::determinant(f);
-    if (!(jacobian > 0)) return std::numeric_limits<Real>::infinity();
-    const core::Mat<Real> cof = core::cofactor(f);
-    Real longest = 0;
+    const T jacobian = core::determinant(f);
+    const core::Mat<T> cof = core::cofactor(f);
+    T longest(Real(0));
     for (int a = 0; a < 3; ++a)
-        longest = std::max(longest, cof(0, a) * cof(0, a) + cof(1, a) * cof(1, a) + cof(2, a) * cof(2, a));
-    return std::sqrt(longest) / jacobian;
+        longest = core::max(longest, cof(0, a) * cof(0, a) + cof(1, a) * cof(1, a) + cof(2, a) * cof(2, a));
+    const T infinite(std::numeric_limits<Real>::infinity());
+    return core::select(jacobian > T(Real(0)), core::sqrt(longest) / jacobian, infinite);
 }
 } // namespace transfer

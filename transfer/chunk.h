@@ -80,11 +80,11 @@ const Columns<3>& weight_position(const particles::Particles& particles)
         return particles.position;
 }
 
-inline LocalPosition<Lanes> local_position(const CellFrame& frame, const core::Vec<Lanes>& x)
+template <class V>
+LocalPosition<V> local_position(const CellFrame& frame, const core::Vec<V>& x)
 {
     const auto local = [&](int a) {
-        return (x[a] - Lanes(frame.origin[a])) * Lanes(frame.per_spacing) -
-               Lanes(frame.lower[static_cast<unsigned>(a)]);
+        return (x[a] - V(frame.origin[a])) * V(frame.per_spacing) - V(frame.lower[static_cast<unsigned>(a)]);
     };
     return {local(0), local(1), local(2)};
 }

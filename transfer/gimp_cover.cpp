@@ -2,28 +2,15 @@
 
 #include "core/parallel.h"
 #include "grid/topology.h"
+#include "transfer/scaled_position.h"
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace transfer
 {
 namespace
 {
-bool before(const grid::CellKey& a, const grid::CellKey& b)
-{
-    return std::tie(a.level, a.cell[0], a.cell[1], a.cell[2]) < std::tie(b.level, b.cell[0], b.cell[1], b.cell[2]);
-}
-
-void sort_unique(std::vector<grid::CellKey>& cells)
-{
-    std::sort(cells.begin(), cells.end(), before);
-    cells.erase(std::unique(cells.begin(), cells.end(),
-                            [](const auto& a, const auto& b) { return !before(a, b) && !before(b, a); }),
-                cells.end());
-}
-
 /// Bounds without the part beyond a wall that the box's centre is not on.
 BoxBounds inside_walls(const PassOptions& options, const BoxBounds& bounds, int level)
 {
@@ -87,11 +74,11 @@ std::vector<grid::CellKey> collected(std::size_t count, const Collect& collect)
     std::vector<std::vector<grid::CellKey>> found((count + block - 1) / block);
     core::parallel_for(found.size(), [&](std::size_t b) {
         for (std::size_t p = b * block; p < std::min(count, (b + 1) * block); ++p) collect(p, found[b]);
-        sort_unique(found[b]);
+        grid::sort_unique(found[b]);
     });
     std::vector<grid::CellKey> all;
     for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-    sort_unique(all);
+    grid::sort_unique(all);
     return all;
 }
 
@@ -120,12 +107,12 @@ void drop_occupied(const grid::Levels& levels, const particles::Particles& parti
 {
     const std::vector<grid::CellKey> occupied =
         collected(particles.size(), [&](std::size_t p, std::vector<grid::CellKey>& held) {
-            const Vec3 x(particles.position[0][p], particles.position[1][p], particles.position[2][p]);
-            const grid::CellKey key = refinement.locate((x - levels.origin) * (Real(1) / levels.spacing0));
-            if (std::binary_search(cells.begin(), cells.end(), key, before)) held.push_back(key);
+            const grid::CellKey key = refinement.locate(scaled_position(levels, particles.position, p));
+            if (std::binary_search(cells.begin(), cells.end(), key, grid::before)) held.push_back(key);
         });
     std::vector<grid::CellKey> rest;
-    std::set_difference(cells.begin(), cells.end(), occupied.begin(), occupied.end(), std::back_inserter(rest), before);
+    std::set_difference(cells.begin(), cells.end(), occupied.begin(), occupied.end(), std::back_inserter(rest),
+                        grid::before);
     cells = std::move(rest);
 }
 
@@ -148,22 +135,12 @@ std::vector<grid::CellKey> missing(const PassOptions& options, const grid::Refin
                 if (grid::active_slot(levels, key.level, key.cell) < 0) found[n].push_back(key);
             });
         }
-        sort_unique(found[n]);
+        grid::sort_unique(found[n]);
     });
     std::vector<grid::CellKey> all;
     for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-    sort_unique(all);
+    grid::sort_unique(all);
     return all;
-}
-
-/// All active cells and `more`.
-std::vector<grid::CellKey> active_and(std::vector<grid::CellKey> more, const grid::Levels& levels)
-{
-    for (std::size_t n = 0; n < levels.leaves.size(); ++n)
-        for (int c = 0; c < grid::leaf_cells; ++c)
-            if (levels.cell_active[n * grid::leaf_cells + static_cast<std::size_t>(c)] != 0)
-                more.push_back({levels.leaves[n].level, levels.leaves[n].origin + Index3(c >> 6, c >> 3 & 7, c & 7)});
-    return more;
 }
 } // namespace
 
@@ -188,7 +165,9 @@ void cover_boxes(const PassOptions& options, const grid::Refinement& refinement,
     if (more.empty()) return;
     const std::vector<grid::Leaf> leaves = levels.leaves;
     const std::vector<std::uint32_t> start = levels.cell_start;
-    grid::build(active_and(std::move(more), levels), levels);
+    const std::vector<grid::CellKey> active = grid::active_cells(levels);
+    more.insert(more.end(), active.begin(), active.end());
+    grid::build(more, levels);
     // More leaves, the same order: only the numbers of the old ones change, and new ones hold nobody.
     levels.cell_start.assign(levels.leaves.size() * grid::leaf_cells + 1, 0);
     for (std::size_t n = 0; n < leaves.size(); ++n) {

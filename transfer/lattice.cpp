@@ -10,14 +10,19 @@ namespace transfer
 {
 namespace
 {
+LocalPosition<Real> rest_place(const CellFrame& cell, const particles::Particles& particles, std::size_t p)
+{
+    const auto& x = particles.rest_position;
+    return local_position(cell, core::Vec<Real>{{x[0][p], x[1][p], x[2][p]}});
+}
+
 /// Slot of a rest position in its cell, or -1 if it is not one of the eight points.
 int slot_of(const CellFrame& cell, const particles::Particles& particles, std::size_t p)
 {
     constexpr Real tolerance = 1e-6;
+    const LocalPosition<Real> at = rest_place(cell, particles, p);
     int slot = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-        const Real local =
-            (particles.rest_position[a][p] - cell.origin[static_cast<int>(a)]) * cell.per_spacing - cell.lower[a];
+    for (const Real local : {at.xi, at.eta, at.zeta}) {
         const int upper = local > Real(0.5) ? 1 : 0;
         if (std::abs(local - (upper ? Real(0.75) : Real(0.25))) > tolerance) return -1;
         slot = 2 * slot + upper;
@@ -148,11 +153,7 @@ void for_dropped(particles::Particles& particles, const Visit& visit)
 /// Position, velocity and deformation gradient at one particle, with its own weights: not in a hurry.
 void find_motion(const grid::NodeMotion* tile, const CellFrame& frame, std::size_t p, particles::Particles& particles)
 {
-    const auto local = [&](int a) {
-        return (particles.rest_position[static_cast<std::size_t>(a)][p] - frame.origin[a]) * frame.per_spacing -
-               frame.lower[static_cast<std::size_t>(a)];
-    };
-    const LocalPosition<Real> at{local(0), local(1), local(2)};
+    const LocalPosition<Real> at = rest_place(frame, particles, p);
     CellField field;
     read_cell(tile + frame.node, field);
     for (int a = 0; a < 3; ++a) {
@@ -203,11 +204,7 @@ Vec3 displacement_of(const particles::Particles& particles, const grid::Levels& 
     const CellFrame frame = cell_frame(leaf_frame(levels, leaf), static_cast<int>(place % grid::leaf_cells));
     CellField field;
     read_cell(levels.motions(leaf) + frame.node, field);
-    Real local[3];
-    for (std::size_t a = 0; a < 3; ++a)
-        local[a] = (particles.rest_position[a][particle] - frame.origin[static_cast<int>(a)]) * frame.per_spacing -
-                   frame.lower[a];
-    const LocalPosition<Real> at{local[0], local[1], local[2]};
+    const LocalPosition<Real> at = rest_place(frame, particles, particle);
     return {value(field, change_column, at), value(field, change_column + 1, at), value(field, change_column + 2, at)};
 }
 

@@ -1,27 +1,14 @@
 #include "core/parallel.h"
 #include "transfer/block_work.h"
+#include "transfer/cell_squeeze.h"
 #include "transfer/solid_share.h"
 
 #include <cmath>
-#include <limits>
 
 namespace transfer
 {
 namespace
 {
-/// cell_squeeze for lanes.
-template <class V>
-V squeeze_of(const core::Mat<V>& f)
-{
-    const core::Mat<V> cof = core::cofactor(f);
-    const V jacobian = f(0, 0) * cof(0, 0) + f(0, 1) * cof(0, 1) + f(0, 2) * cof(0, 2);
-    V longest(Real(0));
-    for (int a = 0; a < 3; ++a)
-        longest = core::max(longest, cof(0, a) * cof(0, a) + cof(1, a) * cof(1, a) + cof(2, a) * cof(2, a));
-    const V infinite(std::numeric_limits<Real>::infinity());
-    return core::select(jacobian > V(Real(0)), core::sqrt(longest) / jacobian, infinite);
-}
-
 /// Stored energy per volume [mJ/mm^3] for lanes: p^2 / (2 K) + J2 / (2 mu), as material::elastic_energy.
 template <class T>
 BlockLanes<T> stored(const SlotLaw<T>& law, const core::Sym<BlockLanes<T>>& stress)
@@ -66,7 +53,7 @@ void survey_block(const Context& context, const particles::Particles& particles,
     for (int s = 0; s < slots; ++s) {
         const core::Mat<V> f = deformation_at(displacement, s, context.per_spacing);
         V volume = load_slot<T>(state.rest_volume, s);
-        V squeeze = core::select(volume > zero, squeeze_of(f), zero);
+        V squeeze = core::select(volume > zero, cell_squeeze(f), zero);
         if (!particles.cracks.empty()) regard_cracks(context, block, particles, s, volume, squeeze);
         core::Sym<V> stress;
         for (std::size_t n = 0; n < 6; ++n) stress.s[n] = load_slot<T>(state.stress[n], s);

@@ -4,6 +4,7 @@
 #include "material/crack_faces.h"
 #include "material/rotation.h"
 #include "transfer/cell_squeeze.h"
+#include "transfer/solid_share.h"
 
 namespace transfer
 {
@@ -51,15 +52,9 @@ CrackRows read_cracks(const SlideBatch& batch)
 /// Lanes that still mean something: see separate_particle.
 Mask sound(const PassOptions& options, const LawTable& laws, Real per_spacing, const SlideBatch& batch)
 {
-    const core::Mat<V> f = load_matrix(batch.deformation);
-    const core::Mat<V> cof = core::cofactor(f);
-    const V jacobian = f(0, 0) * cof(0, 0) + f(0, 1) * cof(0, 1) + f(0, 2) * cof(0, 2);
-    V longest(Real(0));
-    for (int a = 0; a < 3; ++a)
-        longest = core::max(longest, cof(0, a) * cof(0, a) + cof(1, a) * cof(1, a) + cof(2, a) * cof(2, a));
     const V reach(laws.constants[batch.material].wave_speed * options.dt * per_spacing);
-    return (load(batch.volume_ratio) > V(smallest_volume_ratio)) & (jacobian > V(Real(0))) &
-           (reach * core::sqrt(longest) <= V(unstable_step_share) * jacobian);
+    return (load(batch.volume_ratio) > V(smallest_volume_ratio)) &
+           (reach * cell_squeeze(load_matrix(batch.deformation)) <= V(unstable_step_share));
 }
 
 void write_cracks(const material::Faces<V>& faces, Mask moved, SlideBatch& batch)
@@ -96,8 +91,7 @@ void slide_batch(const PassOptions& options, const LawTable& laws, Real per_spac
     material::slide(law, before, faces);
 
     const Mask moved = sound(options, laws, per_spacing, batch);
-    const V share = length / (length + core::max(opening_before, zero)); // solid_share
-    const V volume = load(batch.volume) * share;
+    const V volume = load(batch.volume) * solid_share(length, opening_before);
     for (std::size_t n = 0; n < 6; ++n) core::select(moved, faces.stress.s[n], zero).store(batch.stress[n].data());
     core::select(moved, faces.eq_plastic_strain, load(batch.eq_plastic_strain)).store(batch.eq_plastic_strain.data());
     core::select(moved, faces.plastic_work * volume, zero).store(batch.plastic_work.data());

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "grid/topology.h"
+#include "transfer/scaled_position.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,14 +18,14 @@ struct Placed
     std::uint32_t particle;
 };
 
-Vec3 scaled_position(const particles::Particles& particles, const grid::Levels& levels, std::uint32_t p)
+/// A position that is a number, or an error that names the particle.
+Vec3 finite_position(const particles::Particles& particles, const grid::Levels& levels, std::uint32_t p)
 {
-    const Vec3 x(particles.position[0][p], particles.position[1][p], particles.position[2][p]);
+    const Vec3 x = scaled_position(levels, particles.position, p);
     if (!x.allFinite())
         throw core::NumericalError("particle " + std::to_string(particles.id[p]) +
                                    " has no finite position: the computation is unstable (smaller numerics.cfl?)");
-    // The product, not the quotient: the same rounding as in the kernels' test (chunk.h, inside).
-    return (x - levels.origin) * (Real(1) / levels.spacing0);
+    return x;
 }
 } // namespace
 
@@ -39,7 +40,7 @@ void assign(const std::vector<std::uint32_t>& away, const particles::Particles& 
     std::vector<Placed> placed;
     strays.outside = false;
     for (const std::uint32_t p : away) {
-        const grid::CellKey key = strays.refinement.locate(scaled_position(particles, levels, p));
+        const grid::CellKey key = strays.refinement.locate(finite_position(particles, levels, p));
         const std::int32_t leaf = grid::leaf_of(levels, key.level, key.cell);
         if (leaf < 0) {
             strays.outside = true; // not placed: the caller reorders before anything reads the list

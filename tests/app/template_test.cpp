@@ -11,6 +11,19 @@
 
 namespace
 {
+solver::Problem refined_block()
+{
+    solver::Problem problem;
+    problem.grid.cell = 1;
+    problem.grid.levels = 2;
+    problem.materials.push_back({"steel", {7.81e-3, 195e3, 0.3}, {}, {}, true});
+    // Wider than a slab of the counter, so that a slab boundary lies inside.
+    problem.bodies.push_back({"block", geometry::box(Vec3(0, 0, 0), Vec3(20, 4, 4)), 0, Vec3::Zero()});
+    problem.zones.push_back({"end", geometry::box(Vec3(6, -1, -1), Vec3(10, 5, 5)), 1, 0});
+    problem.end.time = 1;
+    return problem;
+}
+
 std::filesystem::path written_template()
 {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "cleave_template.toml";
@@ -27,14 +40,7 @@ TEST(Template, is_a_valid_case)
 
 TEST(Forecast, counts_the_particles_of_a_block)
 {
-    solver::Problem problem;
-    problem.grid.cell = 1;
-    problem.grid.levels = 2;
-    problem.materials.push_back({"steel", {7.81e-3, 195e3, 0.3}, {}, {}, true});
-    // Wider than a slab of the counter, so that a slab boundary lies inside.
-    problem.bodies.push_back({"block", geometry::box(Vec3(0, 0, 0), Vec3(20, 4, 4)), 0, Vec3::Zero()});
-    problem.zones.push_back({"end", geometry::box(Vec3(6, -1, -1), Vec3(10, 5, 5)), 1, 0});
-    problem.end.time = 1;
+    const solver::Problem problem = refined_block();
     const app::Forecast forecast = app::forecast(problem);
     // Cells 6 to 9 along x, and 5 and 10, whose faces the closed zone touches only in its boundary, stay coarse.
     EXPECT_EQ(forecast.particles.at(1), 4U * 4 * 4 * 64);
@@ -47,13 +53,7 @@ TEST(Forecast, counts_the_particles_of_a_block)
 
 TEST(Forecast, counts_the_bytes_of_grid_frames)
 {
-    solver::Problem problem;
-    problem.grid.cell = 1;
-    problem.grid.levels = 2;
-    problem.materials.push_back({"steel", {7.81e-3, 195e3, 0.3}, {}, {}, true});
-    problem.bodies.push_back({"block", geometry::box(Vec3(0, 0, 0), Vec3(20, 4, 4)), 0, Vec3::Zero()});
-    problem.zones.push_back({"end", geometry::box(Vec3(6, -1, -1), Vec3(10, 5, 5)), 1, 0});
-    problem.end.time = 1;
+    solver::Problem problem = refined_block();
     EXPECT_EQ(app::forecast(problem).grid_bytes, 0);
     problem.output.grid.time = 0.25;
     problem.output.grid_fields = {"density", "velocity"};

@@ -121,13 +121,7 @@ namespace
 /// A bar that yields, is torn apart quickly and carries cracks after a while; nodal scheme.
 support::Job torn_bar(solver::Precision precision)
 {
-    material::Material metal = support::metal();
-    metal.plastic = material::VonMises{10, 100};
-    metal.decohesion = material::Decohesion{};
-    metal.decohesion->s_max = 11;
-    metal.decohesion->tau_max = 50;
-    metal.decohesion->u0 = 2e-3;
-    solver::Problem problem = support::bar(metal, 20, 0.01);
+    solver::Problem problem = support::bar(support::breakable(), 20, 0.01);
     problem.grid.levels = 2;
     problem.zones = {support::zone(geometry::box({-1, 1, -1}, {3, 2, 3}), 1)};
     problem.numerics = support::nodal_numerics(precision);

@@ -14,22 +14,11 @@ using support::Job;
 
 namespace
 {
-material::Material breakable()
-{
-    material::Material m = support::metal();
-    m.plastic = material::VonMises{10, 100};
-    m.decohesion = material::Decohesion{};
-    m.decohesion->s_max = 11;
-    m.decohesion->tau_max = 50;
-    m.decohesion->u0 = 2e-3;
-    return m;
-}
-
 /// A bar with a hole, on cells of 0.25 mm, that will spin about a pin and stretch until it breaks.
 solver::Problem torn_bar(const solver::Numerics& numerics)
 {
     const solver::Load pin = support::pin("pin", {1, 4, 0}, 0.4, {0.0, 0.0, {}}, 0);
-    solver::Problem problem = support::bar(breakable(), 0, 0);
+    solver::Problem problem = support::bar(support::breakable(), 0, 0);
     problem.bodies[0].shape = geometry::subtract(geometry::box({0, 0, 0}, {2, 8, 1}), {pin.region});
     problem.loads = {pin};
     problem.grid.cell = 0.25;

@@ -162,4 +162,16 @@ inline geometry::Shape everywhere()
 {
     return geometry::box(Vec3::Constant(-100), Vec3::Constant(100));
 }
+
+/// The metal with plasticity, and decohesion weak enough for a short run to break it.
+inline material::Material breakable()
+{
+    material::Material m = metal();
+    m.plastic = material::VonMises{10, 100};
+    m.decohesion = material::Decohesion{};
+    m.decohesion->s_max = 11;
+    m.decohesion->tau_max = 50;
+    m.decohesion->u0 = 2e-3;
+    return m;
+}
 } // namespace support

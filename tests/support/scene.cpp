@@ -71,6 +71,17 @@ material::Material soft_elastic()
     return m;
 }
 
+std::vector<material::Material> two_metals(Real yield_stress, bool averaged)
+{
+    material::Material soft = soft_elastic();
+    soft.plastic = material::VonMises{yield_stress, 50};
+    soft.cell_averaged_dilatation = averaged;
+    material::Material hard = soft;
+    hard.elastic = {3e-3, 2500, 0.2};
+    hard.plastic.reset();
+    return {soft, hard};
+}
+
 Scene scene_of(const Topology& topology, const transfer::PassOptions& options,
                const std::vector<material::Material>& materials, Layout layout, std::uint64_t seed)
 {

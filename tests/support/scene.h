@@ -30,6 +30,9 @@ enum class Layout
 /// E = 1000 MPa, nu = 0.3, 1e-3 g/mm^3, elastic.
 material::Material soft_elastic();
 
+/// The soft one with plasticity from `yield_stress` [MPa] on, and a harder, elastic one.
+std::vector<material::Material> two_metals(Real yield_stress, bool averaged);
+
 /// Fill the cells of a topology; stress 0, velocity 0, F = I, weights and state of the wanted scheme.
 Scene scene_of(const Topology& topology, const transfer::PassOptions& options,
                const std::vector<material::Material>& materials, Layout layout, std::uint64_t seed = 1);
@@ -56,4 +59,14 @@ Vec3 vector_of(const std::array<particles::Column, 3>& columns, std::size_t p);
 Eigen::Matrix3d matrix_of(const std::array<particles::Column, 9>& columns, std::size_t p);
 Eigen::Matrix3d stress_of(const particles::Particles& particles, std::size_t p);
 Vec3 vector_of(const std::array<Real, 3>& values);
+
+/// Formulations with their bases; in the total one boxes are points.
+struct Weights
+{
+    transfer::Formulation formulation;
+    transfer::Basis basis;
+};
+inline constexpr Weights all_weights[] = {{transfer::Formulation::updated, transfer::Basis::trilinear},
+                                          {transfer::Formulation::updated, transfer::Basis::gimp},
+                                          {transfer::Formulation::total, transfer::Basis::trilinear}};
 } // namespace support

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+using support::all_weights;
 using support::Scene;
 using transfer::Basis;
 using transfer::Formulation;
@@ -12,19 +13,10 @@ using transfer::Transfer;
 
 namespace
 {
-/// Formulations with their bases; in the total one boxes are points.
-struct Weights
-{
-    Formulation formulation;
-    Basis basis;
-};
-constexpr Weights all_weights[] = {{Formulation::updated, Basis::trilinear},
-                                   {Formulation::updated, Basis::gimp},
-                                   {Formulation::total, Basis::trilinear}};
 const Eigen::Matrix3d gradient = (Eigen::Matrix3d() << 0.3, -1.1, 0.7, 2.0, -0.4, 0.9, -0.6, 1.3, 0.5).finished();
 const Vec3 shift(0.4, -2.5, 1.7);
 
-transfer::PassOptions affine_options(const Weights& weights)
+transfer::PassOptions affine_options(const support::Weights& weights)
 {
     transfer::PassOptions options;
     options.formulation = weights.formulation;
@@ -48,7 +40,7 @@ Scene moved(const support::Topology& topology, const transfer::PassOptions& opti
 TEST(Completeness, a_constant_field_is_carried_exactly_and_strains_nothing)
 {
     for (const support::Topology& topology : support::topologies())
-        for (const Weights& weights : all_weights) {
+        for (const support::Weights& weights : all_weights) {
             const Scene scene = moved(topology, affine_options(weights), Eigen::Matrix3d::Zero());
             for (std::size_t p = 0; p < scene.particles.size(); ++p) {
                 ASSERT_LT((support::vector_of(scene.particles.velocity, p) - shift).norm(), 1e-14) << topology;
@@ -63,7 +55,7 @@ TEST(Completeness, a_constant_field_is_carried_exactly_and_strains_nothing)
 TEST(Completeness, a_linear_field_has_its_value_and_gradient_on_every_particle)
 {
     for (const support::Topology& topology : support::topologies())
-        for (const Weights& weights : all_weights) {
+        for (const support::Weights& weights : all_weights) {
             const Scene scene = moved(topology, affine_options(weights), gradient);
             for (std::size_t p = 0; p < scene.particles.size(); ++p) {
                 const Vec3 x = support::vector_of(scene.particles.rest_position, p);
@@ -95,7 +87,7 @@ TEST(Completeness, flip_adds_the_interpolated_change)
 TEST(Completeness, affine_particles_map_a_linear_motion_to_the_nodes_and_back)
 {
     for (const support::Topology& topology : support::topologies())
-        for (const Weights& weights : all_weights)
+        for (const support::Weights& weights : all_weights)
             for (const StressUpdate update : {StressUpdate::usl, StressUpdate::musl}) {
                 transfer::PassOptions options = affine_options(weights);
                 options.stress_update = update;

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+using support::all_weights;
 using support::Scene;
 using support::vector_of;
 using transfer::Basis;
@@ -13,16 +14,6 @@ using transfer::Transfer;
 namespace
 {
 constexpr Transfer transfers[] = {Transfer::flip, Transfer::apic};
-
-/// Formulations with their bases; in the total one boxes are points.
-struct Weights
-{
-    Formulation formulation;
-    Basis basis;
-};
-constexpr Weights all_weights[] = {{Formulation::updated, Basis::trilinear},
-                                   {Formulation::updated, Basis::gimp},
-                                   {Formulation::total, Basis::trilinear}};
 
 transfer::PassOptions options_of(Formulation formulation, Transfer transfer, Basis basis = Basis::trilinear)
 {

@@ -27,14 +27,9 @@ constexpr Real dt = 1e-5; // ms; the finest cells allow 5e-5
 /// A plastic and an elastic one; only the first averages its dilatation, if any does.
 std::vector<material::Material> two_metals(bool averaged)
 {
-    material::Material soft = support::soft_elastic();
-    soft.plastic = material::VonMises{10, 50};
-    soft.cell_averaged_dilatation = averaged;
-    material::Material hard = soft;
-    hard.elastic = {3e-3, 2500, 0.2};
-    hard.plastic.reset();
-    hard.cell_averaged_dilatation = false;
-    return {soft, hard};
+    std::vector<material::Material> metals = support::two_metals(10, averaged);
+    metals[1].cell_averaged_dilatation = false;
+    return metals;
 }
 
 /// The same with decohesion in the first one, weak enough to break in the tests below.

@@ -56,17 +56,6 @@ Real difference(const Scene& scene, const DenseMpm& dense)
     return std::max(apart.cwiseQuotient(size).maxCoeff(), strain);
 }
 
-std::vector<material::Material> two_metals(bool averaged)
-{
-    material::Material soft = support::soft_elastic();
-    soft.plastic = material::VonMises{1, 50};
-    soft.cell_averaged_dilatation = averaged;
-    material::Material hard = soft;
-    hard.elastic = {3e-3, 2500, 0.2};
-    hard.plastic.reset();
-    return {soft, hard};
-}
-
 struct Variant
 {
     Formulation formulation;
@@ -105,8 +94,8 @@ std::string name_of(const Variant& v)
 /// Cells of 1 to 20 particles of two materials in a random state, drifting along the diagonal.
 Scene busy_scene(const Variant& variant, bool averaged, Real drift)
 {
-    Scene scene = support::scene_of(support::topologies().front(), options_of(variant), two_metals(averaged),
-                                    support::Layout::random, 21);
+    Scene scene = support::scene_of(support::topologies().front(), options_of(variant),
+                                    support::two_metals(1, averaged), support::Layout::random, 21);
     support::randomise_state(22, scene);
     for (particles::Column& column : scene.particles.velocity)
         for (std::size_t p = 0; p < column.size(); ++p) column[p] += drift;
@@ -163,7 +152,8 @@ TEST(Reference, cells_of_one_to_seventy_particles_agree)
     for (const Variant& variant : variants())
         for (const int count : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 64, 70}) {
             support::Topology cell{"one cell", grid::Refinement(1), {{0, Index3(7, -1, 0)}}};
-            Scene scene = support::scene_of(cell, options_of(variant), two_metals(false), support::Layout::random, 1);
+            Scene scene =
+                support::scene_of(cell, options_of(variant), support::two_metals(1, false), support::Layout::random, 1);
             support::Random random(static_cast<std::uint64_t>(count));
             const auto resize = [&](const auto&, auto& column) {
                 if (!column.empty()) column.assign(static_cast<std::size_t>(count), column.front());

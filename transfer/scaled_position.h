@@ -1,0 +1,15 @@
+/// Positions in cells of level 0, as grid::Refinement::locate takes them.
+#pragma once
+
+#include "grid/levels.h"
+#include "particles/particles.h"
+
+namespace transfer
+{
+/// @param at  position or rest position [mm]
+inline Vec3 scaled_position(const grid::Levels& levels, const std::array<particles::Column, 3>& at, std::size_t p)
+{
+    // The product, not the quotient: the same rounding as in the kernels' test (transfer/chunk.h, inside).
+    return (Vec3(at[0][p], at[1][p], at[2][p]) - levels.origin) * (Real(1) / levels.spacing0);
+}
+} // namespace transfer
