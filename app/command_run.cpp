@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "io/grid_file.h"
 #include "io/particle_file.h"
+#include "io/probe_file.h"
 #include "io/process_memory.h"
 #include "io/vdb_file.h"
 #include "solver/observe.h"
@@ -58,6 +59,11 @@ void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
         run.state = solver::initialise(run.problem, run.prepared, run.derived);
         files.history = std::make_unique<io::HistoryFile>(files.directory / "history.csv", run.problem.grid.levels);
         files.record.particles_start = solver::particles_per_level(run.state);
+        if (!run.problem.quantities.empty()) {
+            files.probes = std::make_unique<io::LineFile>(files.directory / "probes.csv",
+                                                          io::probe_header(run.problem.quantities));
+            write_probes(run.problem, run.prepared, run.derived, run.state, files);
+        }
         return;
     }
     const io::RunRecord before = io::read_run_record(files.directory / "run.json");
@@ -65,6 +71,9 @@ void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
     solver::resume(run.problem, run.prepared, run.state, run.derived);
     files.history = std::make_unique<io::HistoryFile>(files.directory / "history.csv", run.problem.grid.levels,
                                                       run.state.clock.step);
+    if (!run.problem.quantities.empty())
+        files.probes = std::make_unique<io::LineFile>(files.directory / "probes.csv",
+                                                      io::probe_header(run.problem.quantities), run.state.clock.step);
     io::rewind_particle_series(files.directory / "particles", run.state.clock.time);
     io::rewind_grid_series(files.directory / "grid", run.state.clock.time);
     files.vdb_frame = io::last_vdb_frame(files.directory / "vdb", run.state.clock.step);
@@ -73,7 +82,8 @@ void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
     files.wall_before = before.wall_s;
     Real largest = 0;
     for (const solver::HistoryLine& line : run.state.history) largest = std::max(largest, line.cod);
-    for (Schedule* schedule : {&files.history_due, &files.particles_due, &files.grid_due, &files.vdb_due})
+    for (Schedule* schedule :
+         {&files.history_due, &files.probes_due, &files.particles_due, &files.grid_due, &files.vdb_due})
         schedule->skip_to(run.state.clock, largest);
     log.line(fmt::format("resumed at step {}, t = {:.6g} ms", run.state.clock.step, run.state.clock.time));
 }
@@ -147,6 +157,7 @@ int run_case(const RunOptions& options)
             // Forces are means since the last line: there is none to form if that was this step.
             if (run.state.history.empty() || run.state.history.back().step != run.state.clock.step)
                 files.history->append(solver::observe(run.problem, run.prepared, run.derived, run.state));
+            write_probes(run.problem, run.prepared, run.derived, run.state, files);
             write_last_frames(run.problem, run.state, files);
         }
         files.record.status = ending == Ending::done ? "done" : "stopped";

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace app
@@ -27,6 +28,35 @@ std::string reference_text(const io::Measure& own, const solver::Reference& refe
     if (!std::isfinite(value) || found->second == 0) return text;
     return fmt::format("{} ({:+.0f} %)", text, 100 * (value / found->second - 1));
 }
+bool has_target(const io::RunRecord& record, const std::string& name)
+{
+    return std::any_of(record.targets.begin(), record.targets.end(),
+                       [&](const io::Target& target) { return target.name == name; });
+}
+
+std::string verdict(const io::Target& target)
+{
+    if (!target.tolerance) return "";
+    return std::abs(target.error) <= *target.tolerance ? "within" : "OUTSIDE";
+}
+
+/// Measures of the case beside their references.
+std::string target_table(const io::RunRecord& record)
+{
+    if (record.targets.empty()) return "";
+    std::string table =
+        fmt::format("\n\n{:<26}{:>14}{:>14}{:>12}{:>12}", "", "this run", "reference", "error", "tolerance");
+    for (const io::Target& target : record.targets) {
+        const auto own = std::find_if(record.measures.begin(), record.measures.end(),
+                                      [&](const io::Measure& m) { return m.name == target.name; });
+        const Real value = std::get<Real>(own->value);
+        table += fmt::format("\n{:<26}{:>14}{:>14.6g}{:>12}{:>12} {}", target.name,
+                             std::isfinite(value) ? fmt::format("{:.6g}", value) : "not reached", target.reference,
+                             std::isfinite(value) ? fmt::format("{:.3g}", target.error) : "-",
+                             target.tolerance ? fmt::format("{:.3g}", *target.tolerance) : "-", verdict(target));
+    }
+    return table;
+}
 } // namespace
 
 std::string measure_table(const io::RunRecord& record, const std::vector<solver::Reference>& references)
@@ -34,6 +64,7 @@ std::string measure_table(const io::RunRecord& record, const std::vector<solver:
     std::string table = fmt::format("\n{:<18}{:>16}", "", "this run");
     for (const solver::Reference& reference : references) table += fmt::format("{:>26}", reference.name);
     for (const io::Measure& measure : record.measures) {
+        if (has_target(record, measure.name)) continue; // below, with its reference
         const auto* path = std::get_if<std::string>(&measure.value);
         const std::string own = path == nullptr ? number_text(measure.name, std::get<Real>(measure.value))
                                 : path->empty() ? "none"
@@ -42,6 +73,7 @@ std::string measure_table(const io::RunRecord& record, const std::vector<solver:
         for (const solver::Reference& reference : references)
             table += fmt::format("{:>26}", reference_text(measure, reference));
     }
+    table += target_table(record);
     if (!references.empty()) table += "\n(in brackets: this run against that number)";
     const Real rate = record.wall_s > 0 ? static_cast<Real>(record.particle_steps) / record.wall_s / 1e6 : Real(0);
     return table + fmt::format("\n\n{} after {} steps in {:.1f} s: {:.1f} million particle-steps/s, {:.2f} GB at most",

@@ -5,11 +5,13 @@
 #include "io/atomic_file.h"
 #include "io/grid_file.h"
 #include "io/particle_file.h"
+#include "io/probe_file.h"
 #include "io/process_memory.h"
 #include "io/vdb_file.h"
 #include "solver/measures.h"
 #include "solver/nodal.h"
 #include "solver/observe.h"
+#include "solver/sample.h"
 
 #include <fmt/format.h>
 
@@ -119,6 +121,7 @@ RunFiles open_files(const fs::path& directory, const io::Case& run_case)
     files.record.title = run_case.problem.title;
     files.record.version = CLEAVE_VERSION;
     files.history_due.every = run_case.problem.output.history;
+    files.probes_due.every = run_case.problem.output.probes;
     files.particles_due.every = run_case.problem.output.particles;
     files.grid_due.every = run_case.problem.output.grid;
     files.vdb_due.every = run_case.problem.output.vdb;
@@ -126,12 +129,22 @@ RunFiles open_files(const fs::path& directory, const io::Case& run_case)
     return files;
 }
 
+void write_probes(const solver::Problem& problem, const solver::Prepared& prepared, const solver::Derived& derived,
+                  solver::State& state, RunFiles& files)
+{
+    if (!files.probes || (!state.samples.empty() && state.samples.back().step == state.clock.step)) return;
+    files.probes->append(io::probe_text(problem.quantities, take_sample(problem, prepared, derived, state)));
+}
+
 void write_due(const solver::Problem& problem, const solver::Prepared& prepared, const solver::Derived& derived,
                solver::State& state, RunFiles& files)
 {
     std::optional<Real> cod;
     if (state.clock.step % opening_interval == 0) cod = solver::gauge_opening(problem, state, derived);
-    if (files.history_due.due(state.clock, cod)) files.history->append(observe(problem, prepared, derived, state));
+    const bool history = files.history_due.due(state.clock, cod);
+    if (history) files.history->append(observe(problem, prepared, derived, state));
+    if (wanted(problem.output.probes) ? files.probes_due.due(state.clock, cod) : history)
+        write_probes(problem, prepared, derived, state, files);
     const bool particles = files.particles_due.due(state.clock, cod);
     const bool grid = files.grid_due.due(state.clock, cod);
     const bool volume = files.vdb_due.due(state.clock, cod);
@@ -175,6 +188,15 @@ void write_record(const solver::Problem& problem, const solver::State& state, do
     for (const solver::Measure& m : measures.numbers)
         record.measures.push_back({m.name, m.value.value_or(std::numeric_limits<Real>::quiet_NaN())});
     record.measures.push_back({"crack_path", measures.crack_path});
+    record.targets.clear();
+    const std::vector<Real> results = solver::results(problem.quantities, state.samples);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        const solver::Quantity& quantity = problem.quantities[i];
+        record.measures.push_back({quantity.name, results[i]});
+        if (quantity.reference)
+            record.targets.push_back({quantity.name, *quantity.reference,
+                                      solver::relative_error(results[i], *quantity.reference), quantity.tolerance});
+    }
     io::write_run_record(files.directory / "run.json", record);
 }
 } // namespace app

@@ -5,6 +5,7 @@
 #include "io/case.h"
 #include "io/checkpoint.h"
 #include "io/history_file.h"
+#include "io/line_file.h"
 #include "io/run_record.h"
 #include "solver/state.h"
 #include "solver/step.h"
@@ -37,7 +38,8 @@ struct RunFiles
     io::CheckpointCase of_case;
     io::RunRecord record;
     std::unique_ptr<io::HistoryFile> history;
-    Schedule history_due, particles_due, grid_due, vdb_due;
+    std::unique_ptr<io::LineFile> probes; // null: the case measures nothing of its own
+    Schedule history_due, probes_due, particles_due, grid_due, vdb_due;
     int vdb_frame = 0;
     std::int64_t last_particles = -1, last_grid = -1, last_vdb = -1; // steps of the newest frames
     double last_checkpoint = 0;                                      // s, wall time since the start of this part
@@ -50,6 +52,10 @@ std::filesystem::path result_directory(const RunOptions& options);
 
 /// Create the directory, write resolved.toml and the first run.json.
 RunFiles open_files(const std::filesystem::path& directory, const io::Case& run_case);
+
+/// Values of the measures now, to probes.csv; nothing if this step has them already.
+void write_probes(const solver::Problem& problem, const solver::Prepared& prepared, const solver::Derived& derived,
+                  solver::State& state, RunFiles& files);
 
 /// Whatever is due at the present step.
 void write_due(const solver::Problem& problem, const solver::Prepared& prepared, const solver::Derived& derived,

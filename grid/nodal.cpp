@@ -75,13 +75,13 @@ void add_lower_halos(std::size_t leaf, Levels& levels)
 }
 
 /// Forces of slaves to their masters, and what these change in the masters' motion.
-void push_masters(Real dt, const LevelInterface& face, Levels& levels)
+void push_masters(Real reached, Real dt, const LevelInterface& face, Levels& levels)
 {
     core::parallel_for(face.master.size(), [&](std::size_t m) {
         const auto leaf = static_cast<std::size_t>(face.master[m].leaf);
         NodeForce& master = levels.forces(leaf)[face.master[m].node];
         NodeMotion& motion = levels.motions(leaf)[face.master[m].node];
-        const Real impulse = dt * master.per_mass;
+        const Real impulse = reached * dt * master.per_mass;
         for (std::int32_t e = face.column_start[m]; e < face.column_start[m + 1]; ++e) {
             const auto entry = static_cast<std::size_t>(e);
             const NodeAddress& at = face.slave[static_cast<std::size_t>(face.column_slave[entry])];
@@ -121,10 +121,13 @@ void restore_masses(const std::vector<Real>& mass_cutoff, Levels& levels)
     std::vector<NodeSum>().swap(levels.sum);
 }
 
-void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, Real dt, Levels& levels)
+void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, Real damping, Real dt, Levels& levels)
 {
+    // v+ = kept v + reached dt (f / m + g); both are 1 without damping.
+    const Real kept = (1 - damping * dt / 2) / (1 + damping * dt / 2), reached = 1 / (1 + damping * dt / 2);
     using Line = core::Pack<Real, 4>;
-    const Line falling(Line::Lanes{dt * gravity[0], dt * gravity[1], dt * gravity[2], 0});
+    const Real fallen = reached * dt;
+    const Line falling(Line::Lanes{fallen * gravity[0], fallen * gravity[1], fallen * gravity[2], 0});
     const Line axes(Line::Lanes{1, 1, 1, 0});
     core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
         add_lower_halos(n, levels);
@@ -132,15 +135,15 @@ void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, Rea
         NodeMotion* motion = levels.motions(n);
         for_nodes(levels.used[n], leaf_side - 1, [&](int i) {
             // Fourth lanes: the spare places, which nobody reads, and 1 / m.
-            const Real impulse = dt * force[i].per_mass;
+            const Real impulse = reached * dt * force[i].per_mass;
             const Line fall(impulse == 0 ? Line(Real(0)) : falling);
             const Line velocity =
-                Line::load(motion[i].velocity.data()) + Line(impulse) * Line::load(force[i].force.data()) * axes + fall;
+                Line(kept) * Line::load(motion[i].velocity.data()) + Line(impulse) * Line::load(force[i].force.data()) * axes + fall;
             velocity.store(motion[i].velocity.data());
             (Line::load(motion[i].change.data()) + Line(dt) * velocity).store(motion[i].change.data());
         });
     });
-    for (std::size_t l = levels.interface.size(); l-- > 0;) push_masters(dt, levels.interface[l], levels);
+    for (std::size_t l = levels.interface.size(); l-- > 0;) push_masters(reached, dt, levels.interface[l], levels);
     core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
         fix_walls(walls, levels.leaves[n], levels.motions(n),
                   [](NodeMotion& m, std::size_t a) { m.velocity[a] = m.change[a] = 0; });

@@ -31,6 +31,7 @@ Case read_case_with_warnings(const std::filesystem::path& file, const std::vecto
     read_top(draft);
     read_grid(draft);
     read_materials(draft);
+    read_motions(draft);
     read_features(draft);
     read_bodies(draft);
     read_zones(draft);
@@ -43,6 +44,7 @@ Case read_case_with_warnings(const std::filesystem::path& file, const std::vecto
     read_numerics(draft);
     read_end(draft);
     read_output(draft);
+    read_quantities(draft);
     read_references(draft);
     check_case(draft);
     if (diagnostics.error_count() > 0) throw core::InputError(diagnostics.error_text());

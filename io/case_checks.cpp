@@ -169,6 +169,20 @@ void check_loads(Draft& draft, bool materials_sound)
     }
 }
 
+void check_surface_loads(Draft& draft)
+{
+    const solver::Problem& problem = draft.problem;
+    for (std::size_t i = 0; i < problem.surface_loads.size(); ++i) {
+        if (!draft.surface_loads[i].sound) continue;
+        const geometry::Shape reach = geometry::grown(problem.surface_loads[i].region, problem.grid.cell);
+        if (!any_sample(draft, reach.bounds(), problem.grid.cell / 4,
+                        [&](const Vec3& p) { return reach.contains(p) && in_a_body(draft, p); }))
+            draft.diagnostics.error(draft.surface_loads[i].place,
+                                    fmt::format("load '{}' touches no body", problem.surface_loads[i].name),
+                                    "no material within a cell of its region");
+    }
+}
+
 void check_gauge(Draft& draft)
 {
     const solver::Problem& problem = draft.problem;
@@ -206,6 +220,7 @@ void check_case(Draft& draft)
     if (draft.problem.bodies.empty() || !all_sound(draft.bodies)) return;
     check_zones(draft);
     check_loads(draft, all_sound(draft.materials) && !draft.materials.empty());
+    check_surface_loads(draft);
     check_gauge(draft);
 }
 } // namespace io

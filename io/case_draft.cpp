@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace io
 {
 namespace
@@ -33,6 +35,15 @@ const solver::Feature* find_feature(Draft& draft, const std::string& name, const
     return nullptr;
 }
 
+int find_material(Draft& draft, const std::string& name, const Place& place)
+{
+    std::vector<std::string> names;
+    for (const material::Material& material : draft.problem.materials) names.push_back(material.name);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) return static_cast<int>(found - names.begin());
+    unknown_name(draft, place, "material", name, names);
+    return 0;
+}
 void unknown_name(Draft& draft, const Place& place, std::string_view kind, std::string_view name,
                   const std::vector<std::string>& candidates)
 {

@@ -32,7 +32,7 @@ struct Draft
 
     Origin grid, end, gauge;
     // Same order as the vectors of Problem.
-    std::vector<Origin> materials, bodies, features, zones, symmetry, loads;
+    std::vector<Origin> materials, bodies, features, zones, symmetry, loads, surface_loads;
     Place every_cod; // first interval by opening; file < 0: none
 };
 
@@ -51,6 +51,7 @@ geometry::Shape round_hole(const Vec3& centre, int axis, Real radius);
 
 void read_grid(Draft& draft);
 void read_materials(Draft& draft);
+void read_motions(Draft& draft);
 void read_features(Draft& draft);
 void read_bodies(Draft& draft);
 void read_zones(Draft& draft);
@@ -64,12 +65,18 @@ void read_references(Draft& draft);
 void read_numerics(Draft& draft);
 void read_end(Draft& draft);
 void read_output(Draft& draft);
+void read_quantities(Draft& draft);
 
 /// What only the parts together can tell: zones outside bodies, planes off the nodes, pins in the void.
 void check_case(Draft& draft);
 
 /// The feature of that name, or an error at `place` and null.
 const solver::Feature* find_feature(Draft& draft, const std::string& name, const Place& place);
+
+/// Index of the material of that name, or an error at `place` and 0.
+int find_material(Draft& draft, const std::string& name, const Place& place);
+/// Index of the motion named at a key of a section; empty if the key is absent or (with an error) names none.
+std::optional<int> find_motion(Draft& draft, SectionReader& section, std::string_view key);
 
 /// An error for a name that is not in the list, with the nearest one that is.
 void unknown_name(Draft& draft, const Place& place, std::string_view kind, std::string_view name,

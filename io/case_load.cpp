@@ -51,9 +51,37 @@ void read_pin(Draft& draft, SectionReader& load, solver::Load& out)
     load.record("pin", std::move(resolved));
 }
 
+void read_surface_load(Draft& draft, SectionReader& section, const std::string& name)
+{
+    using Kind = solver::SurfaceLoad::Kind;
+    solver::SurfaceLoad load;
+    load.name = name;
+    if (section.has("pin") || !section.has("region"))
+        section.error("region", fmt::format("load '{}' on a surface needs a region", name));
+    else
+        load.region = read_shape(draft, section, "region");
+    const std::optional<Real> pressure = section.optional_real("pressure");
+    const std::optional<Vec3> traction = section.optional_vector("traction"), force = section.optional_vector("force");
+    if (section.has("pressure") + section.has("traction") + section.has("force") + section.has("velocity") != 1)
+        section.error("region", fmt::format("[{}] has one of velocity, pressure, traction and force", section.path()));
+    load.kind = pressure ? Kind::pressure : traction ? Kind::traction : Kind::force;
+    load.pressure = pressure.value_or(0);
+    load.vector = traction ? *traction : force.value_or(Vec3::Zero());
+    load.facing = section.optional_vector("facing");
+    if (load.facing && load.facing->norm() <= 0) section.error("facing", "a direction must not be zero");
+    if (section.has("axis")) section.error("axis", "'axis' belongs to a velocity");
+    load.ramp = read_ramp(draft, section);
+    section.finish();
+    draft.surface_loads.push_back({section.place("region"), section.sound()});
+    draft.problem.surface_loads.push_back(std::move(load));
+    keep(draft, {"load", name}, section.resolved());
+}
+
 void read_load(Draft& draft, const Entry& entry)
 {
     SectionReader section(draft.diagnostics, &entry.value, "load", "load." + entry.key, entry.place);
+    if (section.has("pressure") || section.has("traction") || section.has("force"))
+        return read_surface_load(draft, section, entry.key);
     solver::Load load;
     load.name = entry.key;
     if (section.has("region") == section.has("pin"))
@@ -62,9 +90,13 @@ void read_load(Draft& draft, const Entry& entry)
         read_pin(draft, section, load);
     else
         load.region = read_shape(draft, section, "region");
+    if (section.has("facing")) section.error("facing", "'facing' belongs to a pressure, traction or force");
+    if (!section.has("velocity"))
+        section.error("region", fmt::format("missing key 'velocity' in [{}]", section.path()),
+                      "or pressure, traction, force");
     load.velocity = section.velocity("velocity", section.optional_axis("axis"));
     load.ramp = read_ramp(draft, section);
-    if (section.sound() && !load.velocity[0] && !load.velocity[1] && !load.velocity[2])
+    if (section.sound() && section.has("velocity") && !load.velocity[0] && !load.velocity[1] && !load.velocity[2])
         section.error("velocity", fmt::format("load '{}' prescribes nothing", load.name),
                       "every component is \"free\"");
     section.finish();

@@ -12,6 +12,7 @@ void check_load_name(Draft& draft, const std::string& name, const Place& place)
 {
     std::vector<std::string> names;
     for (const solver::Load& load : draft.problem.loads) names.push_back(load.name);
+    for (const solver::SurfaceLoad& load : draft.problem.surface_loads) names.push_back(load.name);
     if (std::find(names.begin(), names.end(), name) == names.end()) unknown_name(draft, place, "load", name, names);
 }
 

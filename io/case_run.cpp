@@ -53,6 +53,7 @@ void read_numerics(Draft& draft)
                                                                  ? solver::StressUpdate::musl
                                                                  : solver::StressUpdate::usl);
     numerics.pic_fraction = section.real("pic_fraction");
+    numerics.damping = section.real("damping");
     numerics.cfl = section.real("cfl");
     numerics.mass_cutoff = section.real("mass_cutoff");
     const bool lattice = numerics.formulation == solver::Formulation::total &&
@@ -100,6 +101,7 @@ void read_output(Draft& draft)
         output.history.steps = 100;
         section.record("every_steps", node(std::int64_t{100}));
     });
+    read_part(draft, table, "probes", [&](SectionReader& section) { output.probes = read_every(draft, section); });
     read_part(draft, table, "particles", [&](SectionReader& section) {
         output.particles = read_every(draft, section);
         output.particle_fields = section.names("fields");

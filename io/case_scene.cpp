@@ -36,15 +36,6 @@ void read_feature(Draft& draft, const Node& table, const std::string& name_in_he
     draft.problem.features.push_back(std::move(feature));
 }
 
-int material_index(Draft& draft, const std::string& name, const Place& place)
-{
-    std::vector<std::string> names;
-    for (const material::Material& material : draft.problem.materials) names.push_back(material.name);
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found != names.end()) return static_cast<int>(found - names.begin());
-    unknown_name(draft, place, "material", name, names);
-    return 0;
-}
 } // namespace
 
 void read_features(Draft& draft)
@@ -68,8 +59,12 @@ void read_bodies(Draft& draft)
         body.shape = read_shape(draft, section, "shape");
         const std::string material = section.text("material");
         if (section.has("material") && !material.empty())
-            body.material = material_index(draft, material, section.place("material"));
+            body.material = find_material(draft, material, section.place("material"));
         body.velocity = section.vector("velocity");
+        body.initial = find_motion(draft, section, "initial");
+        body.body_force = find_motion(draft, section, "body_force");
+        if (section.has("initial") && section.has("velocity"))
+            section.error("velocity", "a body has either a velocity or an initial motion");
         section.finish();
         const geometry::Bounds bounds = body.shape.bounds();
         if (section.sound() && !(bounds.lower.allFinite() && bounds.upper.allFinite()))
@@ -77,7 +72,10 @@ void read_bodies(Draft& draft)
                           "intersect it with a box, or give polygons lower and upper");
         draft.bodies.push_back({section.place("shape"), section.sound()});
         draft.problem.bodies.push_back(std::move(body));
-        keep_item(draft, {"body"}, section.resolved());
+        Node resolved = section.resolved();
+        if (section.has("initial"))
+            std::erase_if(resolved.entries, [](const Entry& entry) { return entry.key == "velocity"; });
+        keep_item(draft, {"body"}, std::move(resolved));
     });
     if (!draft.root.find("body"))
         draft.diagnostics.error(draft.root.place, "the case has no body", "add a table [[body]]");

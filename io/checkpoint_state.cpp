@@ -197,6 +197,39 @@ std::vector<solver::HistoryLine> load_history(int levels, const Hdf5Reader& file
     }
     return history;
 }
+
+/// Samples of the measures: times as rows, values as one table.
+void store_samples(const std::vector<solver::Sample>& samples, Hdf5Writer& file)
+{
+    std::vector<Real> time, value;
+    std::vector<std::int64_t> step;
+    for (const solver::Sample& sample : samples) {
+        step.push_back(sample.step);
+        time.push_back(sample.time);
+        value.insert(value.end(), sample.value.begin(), sample.value.end());
+    }
+    file.group("/samples");
+    store("/samples/step", step, 1, file);
+    store("/samples/time", time, 1, file);
+    store("/samples/value", value, samples.empty() ? 1 : std::max(1, static_cast<int>(samples[0].value.size())), file);
+}
+
+std::vector<solver::Sample> load_samples(const Hdf5Reader& file)
+{
+    const auto step = file.dataset<std::int64_t>("/samples/step");
+    const auto time = file.dataset<Real>("/samples/time");
+    const auto value = file.dataset<Real>("/samples/value");
+    if (time.size() != step.size() || (step.empty() ? !value.empty() : value.size() % step.size() != 0))
+        damaged(file, "the samples of the measures do not fit together");
+    std::vector<solver::Sample> samples(step.size());
+    const std::size_t width = step.empty() ? 0 : value.size() / step.size();
+    for (std::size_t n = 0; n < samples.size(); ++n) {
+        const auto begin = value.begin() + static_cast<std::ptrdiff_t>(n * width);
+        samples[n] = {step[n], time[n], std::vector<Real>(begin, begin + static_cast<std::ptrdiff_t>(width))};
+    }
+    return samples;
+}
+
 /// Motion of all nodes and the force they begin the next step with; nodal scheme only.
 void store_nodes(const solver::State& state, Hdf5Writer& file)
 {
@@ -241,6 +274,9 @@ void store_state(const solver::State& state, Hdf5Writer& file)
     store_rows("/leaf_work", state.leaf_work, file);
     store_rows("/folded_work", std::vector{state.folded_work}, file);
     file.attribute("/", "initial_energy", state.initial_energy);
+    file.attribute("/", "source_work", state.source_work);
+    file.attribute("/", "damped_work", state.damped_work);
+    store_samples(state.samples, file);
     store_history(state.history, state.levels.count, file);
     file.group("/gauge");
     store("/gauge/upper", state.gauge_upper, 1, file);
@@ -259,6 +295,9 @@ solver::State load_state(const Hdf5Reader& file)
     state.leaf_work = load_rows<solver::LeafWork>("/leaf_work", file);
     state.folded_work = load_row<solver::LeafWork>("/folded_work", file);
     state.initial_energy = file.attribute<Real>("/", "initial_energy").at(0);
+    state.source_work = file.attribute<Real>("/", "source_work").at(0);
+    state.damped_work = file.attribute<Real>("/", "damped_work").at(0);
+    state.samples = load_samples(file);
     state.history = load_history(state.levels.count, file);
     state.gauge_upper = file.dataset<std::uint32_t>("/gauge/upper");
     state.gauge_lower = file.dataset<std::uint32_t>("/gauge/lower");

@@ -7,11 +7,8 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <cerrno>
 #include <charconv>
-#include <fcntl.h>
 #include <string_view>
-#include <unistd.h>
 
 namespace io
 {
@@ -26,7 +23,7 @@ struct RealColumn
 };
 
 /// The real-valued columns between `step` and `separated_particles`; `residual_mJ` follows from the others.
-constexpr std::array<RealColumn, 12> real_columns{{
+constexpr std::array<RealColumn, 13> real_columns{{
     {"time_ms", [](HistoryLine& l) -> Real& { return l.time; }},
     {"dt_ms", [](HistoryLine& l) -> Real& { return l.dt; }},
     {"force_upper_N", [](HistoryLine& l) -> Real& { return l.force_upper; }},
@@ -36,22 +33,12 @@ constexpr std::array<RealColumn, 12> real_columns{{
     {"elastic_mJ", [](HistoryLine& l) -> Real& { return l.energy.elastic; }},
     {"plastic_mJ", [](HistoryLine& l) -> Real& { return l.energy.plastic; }},
     {"decohesion_mJ", [](HistoryLine& l) -> Real& { return l.energy.decohesion; }},
+    {"damping_mJ", [](HistoryLine& l) -> Real& { return l.energy.damping; }},
     {"external_mJ", [](HistoryLine& l) -> Real& { return l.energy.external; }},
     {"initial_mJ", [](HistoryLine& l) -> Real& { return l.energy.initial; }},
     {"max_damage", [](HistoryLine& l) -> Real& { return l.max_damage; }},
 }};
 constexpr std::size_t fixed_columns = real_columns.size() + 3; // with step, residual_mJ and separated_particles
-
-/// The complete lines of a text; what follows the last end of line was cut short.
-std::vector<std::string_view> complete_lines(std::string_view text)
-{
-    std::vector<std::string_view> lines;
-    for (std::size_t end = text.find('\n'); end != text.npos; end = text.find('\n')) {
-        lines.push_back(text.substr(0, end));
-        text.remove_prefix(end + 1);
-    }
-    return lines;
-}
 
 std::vector<std::string_view> split(std::string_view line)
 {
@@ -126,37 +113,14 @@ std::vector<HistoryLine> read_history(const std::filesystem::path& path)
     return history;
 }
 
-HistoryFile::HistoryFile(const std::filesystem::path& path, int levels) : path_(path)
-{
-    write_file(path_, history_header(levels) + "\n");
-    open();
-}
+HistoryFile::HistoryFile(const std::filesystem::path& path, int levels) : file_(path, history_header(levels)) {}
 
-HistoryFile::HistoryFile(const std::filesystem::path& path, int levels, std::int64_t step) : path_(path)
-{
-    const std::string old = std::filesystem::exists(path) ? read_file(path) : std::string();
-    std::string kept = history_header(levels) + "\n";
-    for (const std::string_view line : complete_lines(old)) {
-        std::int64_t line_step = 0; // the header has none
-        if (parse(split(line)[0], line_step) && line_step <= step) kept.append(line).append("\n");
-    }
-    write_file(path_, kept);
-    open();
-}
-
-HistoryFile::~HistoryFile()
-{
-    ::close(descriptor_);
-}
-
-void HistoryFile::open()
-{
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-    if (descriptor_ < 0) throw_file_error("write", path_, errno);
-}
+HistoryFile::HistoryFile(const std::filesystem::path& path, int levels, std::int64_t step)
+    : file_(path, history_header(levels), step)
+{}
 
 void HistoryFile::append(const HistoryLine& line)
 {
-    if (const int error = write_all(descriptor_, history_text(line) + "\n")) throw_file_error("write", path_, error);
+    file_.append(history_text(line));
 }
 } // namespace io

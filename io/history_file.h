@@ -1,8 +1,7 @@
 /// history.csv: one line per output with the forces, the opening and the energies; units stand in the header.
-///
-/// Every line reaches the operating system at once, so a running case can be plotted and a killed one loses nothing.
 #pragma once
 
+#include "io/line_file.h"
 #include "solver/state.h"
 
 #include <cstdint>
@@ -31,18 +30,12 @@ public:
     /// Go on with an existing file after `step`: later lines, and one cut short, are dropped. Without a file: a new
     /// one.
     HistoryFile(const std::filesystem::path& path, int levels, std::int64_t step);
-    ~HistoryFile();
-    HistoryFile(const HistoryFile&) = delete;
-    HistoryFile& operator=(const HistoryFile&) = delete;
 
     /// Append one line.
     /// @error FileError
     void append(const solver::HistoryLine& line);
 
 private:
-    void open();
-
-    std::filesystem::path path_;
-    int descriptor_ = -1;
+    LineFile file_;
 };
 } // namespace io

@@ -39,6 +39,30 @@ Json to_json(const std::vector<solver::Reference>& references)
     return array;
 }
 
+/// One member of all targets by name.
+template <class Member>
+Json to_json(const std::vector<Target>& targets, const Member& member)
+{
+    Json object = Json::object();
+    for (const Target& target : targets)
+        if (const std::optional<Real> value = member(target)) object[target.name] = to_json(*value);
+    return object;
+}
+
+std::vector<Target> read_targets(const Json& json)
+{
+    const auto number = [](const Json& value) {
+        return value.is_null() ? std::numeric_limits<Real>::quiet_NaN() : value.get<Real>();
+    };
+    std::vector<Target> targets;
+    if (!json.contains("errors")) return targets; // records of earlier versions
+    for (const auto& [name, error] : json.at("errors").items()) {
+        Target& target = targets.emplace_back(Target{name, number(json.at("targets").at(name)), number(error), {}});
+        if (json.at("tolerances").contains(name)) target.tolerance = json.at("tolerances").at(name).get<Real>();
+    }
+    return targets;
+}
+
 std::vector<Measure> read_measures(const Json& object)
 {
     std::vector<Measure> measures;
@@ -82,6 +106,9 @@ Json to_json(const RunRecord& record)
             {"particles", {{"start", record.particles_start}, {"end", record.particles_end}}},
             {"modelled", record.modelled},
             {"measures", to_json(record.measures)},
+            {"errors", to_json(record.targets, [](const Target& t) { return std::optional(t.error); })},
+            {"targets", to_json(record.targets, [](const Target& t) { return std::optional(t.reference); })},
+            {"tolerances", to_json(record.targets, [](const Target& t) { return t.tolerance; })},
             {"references", to_json(record.references)}};
 }
 } // namespace
@@ -112,6 +139,7 @@ RunRecord read_run_record(const std::filesystem::path& path)
         json.at("particles").at("end").get_to(record.particles_end);
         json.at("modelled").get_to(record.modelled);
         record.measures = read_measures(json.at("measures"));
+        record.targets = read_targets(json);
         record.references = read_references(json.at("references"));
         return record;
     } catch (const Json::exception& error) {
@@ -123,6 +151,8 @@ std::string measures_line(const RunRecord& record)
 {
     Json line{{"title", record.title}, {"status", record.status}};
     line.update(to_json(record.measures));
+    if (!record.targets.empty())
+        line["errors"] = to_json(record.targets, [](const Target& t) { return std::optional(t.error); });
     return line.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 } // namespace io

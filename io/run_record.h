@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -16,6 +17,15 @@ struct Measure
 {
     std::string name;
     std::variant<Real, std::string> value;
+};
+
+/// What a measure of the case is to be compared with.
+struct Target
+{
+    std::string name; // of the measure
+    Real reference = 0;
+    Real error = 0;                // 1, value / reference - 1, the value itself where the reference is 0; NaN: no value
+    std::optional<Real> tolerance; // 1, on |error|
 };
 
 struct RunRecord
@@ -34,6 +44,7 @@ struct RunRecord
     std::vector<std::uint64_t> particles_start, particles_end; // per level
     std::vector<std::string> modelled;                         // what was active and why, one sentence each
     std::vector<Measure> measures;                             // in the order they are to be shown
+    std::vector<Target> targets;                               // of those measures that have a reference
     std::vector<solver::Reference> references;                 // published numbers to compare with
 };
 

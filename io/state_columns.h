@@ -49,13 +49,15 @@ void visit_members(solver::Clock& clock, Visit&& visit)
 template <class Visit>
 void visit_members(solver::LoadState& load, Visit&& visit)
 {
-    static_assert(sizeof(solver::LoadState) == 13 * sizeof(Real));
+    static_assert(sizeof(solver::LoadState) == 17 * sizeof(Real));
     visit_array("displacement", load.displacement, visit);
     visit("angle", load.angle);
     visit("spin", load.spin);
     visit_array("reaction", load.reaction, visit);
     visit_array("impulse", load.impulse, visit);
     visit("impulse_time", load.impulse_time);
+    visit_array("sample_impulse", load.sample_impulse, visit);
+    visit("sample_time", load.sample_time);
     visit("external_work", load.external_work);
 }
 
@@ -87,8 +89,8 @@ void visit_members(solver::LeafWork& work, Visit&& visit)
 template <class Visit>
 void visit_members(solver::HistoryLine& line, Visit&& visit)
 {
-    static_assert(sizeof(solver::Ledger) == 6 * sizeof(Real));
-    static_assert(sizeof(solver::HistoryLine) == 14 * sizeof(Real) + sizeof(std::vector<std::uint64_t>));
+    static_assert(sizeof(solver::Ledger) == 7 * sizeof(Real));
+    static_assert(sizeof(solver::HistoryLine) == 15 * sizeof(Real) + sizeof(std::vector<std::uint64_t>));
     visit("step", line.step);
     visit("time", line.time);
     visit("dt", line.dt);
@@ -101,6 +103,7 @@ void visit_members(solver::HistoryLine& line, Visit&& visit)
     visit("decohesion", line.energy.decohesion);
     visit("external", line.energy.external);
     visit("initial", line.energy.initial);
+    visit("damping", line.energy.damping);
     visit("max_damage", line.max_damage);
     visit("separated_particles", line.separated_particles);
 }

@@ -56,6 +56,7 @@ constexpr std::array named{
     Named{dimension::none, "1", "number without unit", "0.5"},
     Named{dimension::length, "mm", "length", "\"0.25 mm\""},
     Named{dimension::time, "ms", "time", "\"0.05 ms\""},
+    Named{dimension::rate, "1/ms", "rate", "0.5"},
     Named{dimension::velocity, "mm/ms", "velocity", "\"5 m/s\""},
     Named{dimension::acceleration, "mm/ms^2", "acceleration", "\"9.81 m/s^2\""},
     Named{dimension::density, "g/mm^3", "density", "\"7.81e-3 g/mm^3\""},

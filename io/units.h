@@ -25,6 +25,7 @@ namespace dimension
 inline constexpr Dimension none{};
 inline constexpr Dimension length{1, 0, 0};
 inline constexpr Dimension time{0, 0, 1};
+inline constexpr Dimension rate{0, 0, -1};
 inline constexpr Dimension velocity{1, 0, -1};
 inline constexpr Dimension acceleration{1, 0, -2};
 inline constexpr Dimension density{-3, 1, 0};

@@ -37,6 +37,7 @@ struct Particles
     std::vector<std::uint8_t> target_level;     // [p] level its zone asks for
     std::vector<std::uint8_t> size_level;       // [p] level whose particle spacing it has
     std::vector<std::uint8_t> material;         // [p] index into Problem::materials
+    std::vector<std::uint8_t> body;             // [p] index into Problem::bodies
     std::vector<std::uint8_t> away;             // [p] 1: has left its home cell since the last ordering
 
     std::vector<Crack> cracks; // side table, in order of onset
@@ -83,6 +84,7 @@ void Particles::for_each_integer(Self& self, Visit&& visit)
     visit("target_level", self.target_level);
     visit("size_level", self.size_level);
     visit("material", self.material);
+    visit("body", self.body);
     visit("away", self.away);
 }
 } // namespace particles

@@ -39,6 +39,7 @@ void append(const SeedTraits& traits, const Vec3& at, Real volume, int level, Pa
     particles.target_level.push_back(static_cast<std::uint8_t>(level));
     particles.size_level.push_back(static_cast<std::uint8_t>(level));
     particles.material.push_back(traits.material);
+    particles.body.push_back(traits.body);
     particles.away.push_back(0);
     particles.mass.push_back(traits.density * volume);
 }

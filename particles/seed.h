@@ -20,6 +20,7 @@ struct SeedTraits
     Vec3 velocity = Vec3::Zero(); // mm/ms
     std::uint8_t material = 0;
     EdgeTreatment edge = EdgeTreatment::fraction;
+    std::uint8_t body = 0;
 };
 
 /// Sub-cells with a smaller part inside the body get no particle: their nodes would add noise, not stiffness.

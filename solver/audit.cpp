@@ -81,6 +81,8 @@ Ledger audit(const Prepared& prepared, const State& state)
         total.decohesion += state.leaf_work[n].decohesion;
     }
     for (const LoadState& load : state.loads) total.external += load.external_work;
+    total.external += state.source_work;
+    total.damping = state.damped_work;
     total.initial = state.initial_energy;
     return total;
 }

@@ -48,6 +48,7 @@ void regrid(const Problem& problem, const Prepared& prepared, State& state, Deri
     find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
     find_gauges(state, derived);
     weigh_columns(state.particles, derived.ligaments);
+    derived.surface = find_surface_forces(problem, state.particles, prepared);
     transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
 }
 

@@ -5,8 +5,10 @@
 #include "refine/populate.h"
 #include "refine/regrid.h"
 #include "solver/audit.h"
+#include "solver/begin_motion.h"
 #include "solver/follow.h"
 #include "solver/nodal.h"
+#include "solver/stable_time_step.h"
 #include "solver/step.h"
 #include "transfer/gimp_cover.h"
 
@@ -71,16 +73,27 @@ void populate(const Problem& problem, const Prepared& prepared, State& state)
     for (const Body& body : problem.bodies) {
         const std::size_t before = state.particles.size();
         const material::Material& material = problem.materials[static_cast<std::size_t>(body.material)];
-        refine::populate(
-            body.shape,
-            {material.elastic.density, body.velocity, static_cast<std::uint8_t>(body.material), problem.grid.edge},
-            lattice, state.strays.refinement, prepared.per_axis, state.particles);
+        refine::populate(body.shape,
+                         {material.elastic.density, body.velocity, static_cast<std::uint8_t>(body.material),
+                          problem.grid.edge, static_cast<std::uint8_t>(&body - problem.bodies.data())},
+                         lattice, state.strays.refinement, prepared.per_axis, state.particles);
         if (state.particles.size() == before)
             throw core::InputError(fmt::format("body '{}' has no particle: it is thinner than a cell of {} mm, or its "
                                                "shape is empty",
                                                body.name, problem.grid.cell));
     }
     add_scheme_columns(problem.numerics, state.particles);
+}
+
+/// Initial motions, and cells that fit the particles where these put them.
+void place_particles(const Problem& problem, const Prepared& prepared, State& state)
+{
+    set_initial_state(problem, state.particles);
+    if (problem.numerics.formulation == Formulation::total) return;
+    state.strays.refinement = refine::refinement_from_targets(state.levels, state.particles);
+    transfer::refine_voids(prepared.options, state.levels, state.particles, state.strays.refinement);
+    refine::split_into_finer_cells(state.levels, state.strays.refinement, prepared.per_axis, state.particles);
+    set_initial_state(problem, state.particles);
 }
 
 void check_loads(const Problem& problem, const grid::Levels& levels, const Derived& derived)
@@ -108,6 +121,7 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
     populate(problem, prepared, state);
     transfer::refine_voids(prepared.options, state.levels, state.particles, state.strays.refinement);
     refine::split_into_finer_cells(state.levels, state.strays.refinement, prepared.per_axis, state.particles);
+    if (begins_with_motion(problem)) place_particles(problem, prepared, state);
     refine::order(problem.numerics.formulation, state.strays.refinement, state.levels, state.particles);
     transfer::cover_boxes(prepared.options, state.strays.refinement, state.particles, state.levels);
     state.leaf_work.assign(state.levels.leaves.size(), {});
@@ -121,6 +135,7 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
     find_gauges(state, derived);
     derived.ligaments = ligament_map(problem);
     weigh_columns(state.particles, derived.ligaments);
+    derived.surface = find_surface_forces(problem, state.particles, prepared);
     const auto scatter = [&] {
         transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
     };
@@ -134,8 +149,19 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
         start_nodal(prepared, state);
         keep_heavy_nodes(state.levels, derived.load_nodes);
     }
+    const bool moving = begins_with_motion(problem);
+    if (moving && nodal(problem)) set_node_motion(problem, prepared, 0, state);
     const Ledger start = audit(prepared, state);
     state.initial_energy = start.kinetic + start.elastic;
+    if (moving) {
+        const Real dt = stable_time_step(problem, prepared, state);
+        if (nodal(problem)) {
+            set_node_motion(problem, prepared, dt, state);
+        } else {
+            set_back_velocities(problem, dt, state.particles);
+            scatter();
+        }
+    }
     return state;
 }
 
@@ -150,6 +176,7 @@ void resume(const Problem& problem, const Prepared& prepared, State& state, Deri
     find_gauges(state, derived);
     derived.ligaments = ligament_map(problem);
     weigh_columns(state.particles, derived.ligaments);
+    derived.surface = find_surface_forces(problem, state.particles, prepared);
     if (nodal(problem)) {
         state.levels.force = std::move(force);
         state.levels.motion = std::move(motion);

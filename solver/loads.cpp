@@ -29,12 +29,6 @@ Vec3 prescribed(const Load& load, Real time)
     return v;
 }
 
-bool held(const Load& load, int axis)
-{
-    return load.velocity[static_cast<std::size_t>(axis)].has_value() ||
-           (load.kind == Load::Kind::pin && axis != load.axis);
-}
-
 /// Where a pin's nodes are about its axis: at rest positions in the total formulation, turned by the pin's angle.
 struct Turn
 {
@@ -122,6 +116,12 @@ Real new_spin(const Problem& problem, const Prepared& prepared, const Load& load
     return inertia > 0 ? angular_momentum / inertia : Real(0);
 }
 } // namespace
+
+bool holds(const Load& load, int axis)
+{
+    return load.velocity[static_cast<std::size_t>(axis)].has_value() ||
+           (load.kind == Load::Kind::pin && axis != load.axis);
+}
 
 Real ramp_value(const Ramp& ramp, Real time)
 {
@@ -212,7 +212,7 @@ void apply_loads(const Problem& problem, const Prepared& prepared, const std::ve
             const Vec3 given =
                 sum.mass * (fresh - carried_velocity(prepared, sum, old)) - dt * total_force(problem, sum);
             for (int a = 0; a < 3; ++a) {
-                if (!held(load, a)) continue;
+                if (!holds(load, a)) continue;
                 const auto axis = static_cast<std::size_t>(a);
                 if (prepared.options.transfer == Transfer::nodal)
                     motion.change[axis] += dt * (fresh[a] - motion.velocity[axis]); // the displacement
@@ -231,6 +231,8 @@ void apply_loads(const Problem& problem, const Prepared& prepared, const std::ve
         state.reaction = impulse / dt;
         state.impulse += impulse;
         state.impulse_time += dt;
+        state.sample_impulse += impulse;
+        state.sample_time += dt;
         state.external_work += impulse.dot(before + after) / 2;
         state.displacement += dt * after;
         state.angle += dt * state.spin;
@@ -243,7 +245,7 @@ void hold_loads(const Problem& problem, const std::vector<LoadNodes>& nodes, gri
         for (const NodeAddress& at : nodes[i].node) {
             grid::NodeMotion& motion = levels.motions(static_cast<std::size_t>(at.leaf))[at.node];
             for (int a = 0; a < 3; ++a)
-                if (held(problem.loads[i], a))
+                if (holds(problem.loads[i], a))
                     motion.change[static_cast<std::size_t>(a)] = motion.velocity[static_cast<std::size_t>(a)];
         }
 }

@@ -24,6 +24,9 @@ struct LoadNodes
 /// Share of the finest spacing by which a region may move before its nodes are looked up again.
 inline constexpr Real load_shift_quantum = 0.05;
 
+/// Whether a load prescribes that velocity component of its nodes.
+bool holds(const Load& load, int axis);
+
 /// Value in [0, 1] of a ramp at `time` [ms].
 Real ramp_value(const Ramp& ramp, Real time);
 

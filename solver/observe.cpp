@@ -1,6 +1,7 @@
 #include "solver/observe.h"
 
 #include "solver/audit.h"
+#include "solver/external_force.h"
 #include "solver/measures.h"
 #include "solver/nodal.h"
 
@@ -23,12 +24,15 @@ Real mean_displacement(const Problem& problem, const State& state, const std::ve
 }
 
 /// Mean reaction of a named load since the last line, full specimen, positive along `sign`.
-Real mean_force(const Problem& problem, const State& state, const std::string& name, Real sign)
+Real mean_force(const Problem& problem, const Derived& derived, const State& state, const std::string& name, Real sign)
 {
     for (std::size_t i = 0; i < problem.loads.size(); ++i)
         if (problem.loads[i].name == name && state.loads[i].impulse_time > 0)
             return sign * problem.symmetry_factor() * state.loads[i].impulse[problem.force_axis] /
                    state.loads[i].impulse_time;
+    for (std::size_t i = 0; i < problem.surface_loads.size(); ++i)
+        if (problem.surface_loads[i].name == name)
+            return sign * surface_force(problem, derived, i, problem.force_axis, state.clock.time);
     return 0;
 }
 } // namespace
@@ -56,8 +60,8 @@ HistoryLine observe(const Problem& problem, const Prepared& prepared, const Deri
     line.step = state.clock.step;
     line.time = state.clock.time;
     line.dt = state.clock.dt;
-    line.force_upper = mean_force(problem, state, problem.force_upper, 1);
-    line.force_lower = mean_force(problem, state, problem.force_lower, -1);
+    line.force_upper = mean_force(problem, derived, state, problem.force_upper, 1);
+    line.force_lower = mean_force(problem, derived, state, problem.force_lower, -1);
     line.cod = gauge_opening(problem, state, derived);
     line.energy = audit(prepared, state);
     for (const core::Crack& crack : state.particles.cracks) {

@@ -9,6 +9,8 @@
 #include "material/material.h"
 #include "particles/seed.h"
 #include "refine/zone.h"
+#include "solver/motion.h"
+#include "solver/quantity.h"
 #include "transfer/scheme.h"
 
 #include <array>
@@ -43,8 +45,10 @@ struct Body
 {
     std::string name;
     geometry::Shape shape;
-    int material = 0;             // index into Problem::materials
-    Vec3 velocity = Vec3::Zero(); // mm/ms, initial
+    int material = 0;              // index into Problem::materials
+    Vec3 velocity = Vec3::Zero();  // mm/ms, initial
+    std::optional<int> initial;    // index into Problem::motions: the state it begins with
+    std::optional<int> body_force; // likewise: whose body force acts on it
 };
 
 struct Numerics
@@ -55,6 +59,7 @@ struct Numerics
     Transfer transfer = Transfer::flip;
     Precision precision = Precision::f64;
     Real pic_fraction = 0;    // 1, share of PIC in the FLIP velocity update
+    Real damping = 0;         // 1/ms, a in v' = f / m - a v
     Real cfl = 0.5;           // 1, dt = cfl * min h / c_d
     Real mass_cutoff = 1e-10; // 1, nodes lighter than this share of a full cell's mass are inactive
 };
@@ -96,6 +101,24 @@ struct Load
     Ramp ramp;
 };
 
+/// A force on part of the surface, per area at time 0, with its direction kept: dead loading.
+struct SurfaceLoad
+{
+    enum class Kind
+    {
+        pressure, // MPa, against the outward normal
+        traction, // MPa
+        force,    // N in all, on the modelled part
+    };
+    std::string name;
+    geometry::Shape region; // faces whose centre lies in it
+    Kind kind = Kind::pressure;
+    Real pressure = 0;          // MPa
+    Vec3 vector = Vec3::Zero(); // MPa or N
+    std::optional<Vec3> facing; // only faces that look this way
+    Ramp ramp;
+};
+
 /// Distance between two material points along a direction, minus its value at time 0: the COD.
 struct Gauge
 {
@@ -130,6 +153,7 @@ struct OutputEvery
 struct Output
 {
     OutputEvery history;
+    OutputEvery probes; // of measures; none: with the history
     OutputEvery particles;
     std::vector<std::string> particle_fields; // names of io/particle_fields.h
     std::string particle_precision = "f32";   // or "f64"
@@ -170,6 +194,9 @@ struct Problem
     std::vector<Zone> zones;
     std::vector<SymmetryPlane> symmetry;
     std::vector<Load> loads;
+    std::vector<SurfaceLoad> surface_loads;
+    std::vector<Motion> motions;
+    std::vector<Quantity> quantities;
     Vec3 gravity = Vec3::Zero(); // mm/ms^2
     std::optional<Gauge> gauge;
     std::string force_upper, force_lower; // names of the loads whose reactions are the history's two forces

@@ -22,17 +22,19 @@ struct Clock
 /// Motion and reaction of one load (same order as Problem::loads).
 struct LoadState
 {
-    Vec3 displacement = Vec3::Zero(); // mm, prescribed part
-    Real angle = 0;                   // rad, of a pin
-    Real spin = 0;                    // rad/ms, of a pin
-    Vec3 reaction = Vec3::Zero();     // N, last step: force of the load on the body, modelled part
-    Vec3 impulse = Vec3::Zero();      // N ms, since the last history line
-    Real impulse_time = 0;            // ms, time it was gathered over
-    Real external_work = 0;           // mJ, since time 0
+    Vec3 displacement = Vec3::Zero();   // mm, prescribed part
+    Real angle = 0;                     // rad, of a pin
+    Real spin = 0;                      // rad/ms, of a pin
+    Vec3 reaction = Vec3::Zero();       // N, last step: force of the load on the body, modelled part
+    Vec3 impulse = Vec3::Zero();        // N ms, since the last history line
+    Real impulse_time = 0;              // ms, time it was gathered over
+    Vec3 sample_impulse = Vec3::Zero(); // N ms, since the measures were last sampled
+    Real sample_time = 0;               // ms, time it was gathered over
+    Real external_work = 0;             // mJ, since time 0
 };
 
-/// Energies of the modelled part [mJ]. `residual` = external + initial - all the rest: what the scheme lost (> 0) or
-/// made.
+/// Energies of the modelled part [mJ]; `damping` is what numerics.damping took. `residual` = external + initial - all
+/// the rest: what the scheme lost (> 0) or made.
 struct Ledger
 {
     Real kinetic = 0;
@@ -41,7 +43,8 @@ struct Ledger
     Real decohesion = 0;
     Real external = 0;
     Real initial = 0;
-    Real residual() const { return external + initial - kinetic - elastic - plastic - decohesion; }
+    Real damping = 0;
+    Real residual() const { return external + initial - kinetic - elastic - plastic - decohesion - damping; }
 };
 
 /// Dissipation summed per leaf inside the kernels; folded into State when leaves are renumbered.
@@ -69,6 +72,14 @@ struct HistoryLine
     std::vector<std::uint64_t> particles;  // per level
 };
 
+/// Values of the case's measures at one time.
+struct Sample
+{
+    std::int64_t step = 0;
+    Real time = 0;           // ms
+    std::vector<Real> value; // same order as Problem::quantities; NaN: not defined then
+};
+
 struct State
 {
     particles::Particles particles;
@@ -81,6 +92,9 @@ struct State
     std::vector<LeafWork> leaf_work;                     // [leaf]
     LeafWork folded_work;                                // mJ, of leaves that no longer exist
     Real initial_energy = 0;                             // mJ
+    Real source_work = 0;                                // mJ, of body forces and surface loads
+    Real damped_work = 0;                                // mJ, taken by numerics.damping
+    std::vector<Sample> samples;                         // of the measures, every one so far
     std::vector<HistoryLine> history;                    // every line so far: measures need peaks and events
     std::vector<std::uint32_t> gauge_upper, gauge_lower; // particle ids whose mean displacement is the gauge
 };

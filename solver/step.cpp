@@ -4,6 +4,7 @@
 #include "grid/interface.h"
 #include "grid/momentum.h"
 #include "grid/nodal.h"
+#include "solver/external_force.h"
 #include "solver/follow.h"
 #include "solver/nodal.h"
 #include "solver/stable_time_step.h"
@@ -26,16 +27,20 @@ void choose_dt(const Problem& problem, const Prepared& prepared, State& state)
 }
 
 /// Node velocities of all levels from the particles' sums.
-void move_nodes(const Problem& problem, const Prepared& prepared, const Derived& derived, State& state)
+void move_nodes(const Problem& problem, const Prepared& prepared, Derived& derived, State& state)
 {
     const Real time = state.clock.time;
     const Real dt = state.clock.dt;
+    add_external_forces(problem, state, derived);
     grid::assemble_sums(state.levels);
     grid::restrict_sums(state.levels);
-    grid::advance_momentum(prepared.walls, problem.gravity, prepared.mass_cutoff, dt, state.levels);
+    grid::advance_momentum(prepared.walls, problem.gravity, problem.numerics.damping, prepared.mass_cutoff, dt,
+                           state.levels);
+    add_damped_work(problem, derived, state);
     apply_loads(problem, prepared, derived.load_nodes, time, dt, state.levels, state.loads);
     grid::prolong_motion(state.levels);
     grid::fill_motion_halos(state.levels);
+    add_external_work(problem, derived, state);
 }
 
 /// Node velocities mapped again from the updated particles, into `change`.
@@ -89,10 +94,14 @@ void step_nodal(const Problem& problem, const Prepared& prepared, State& state, 
     choose_dt(problem, prepared, state);
     const transfer::PassOptions options = pass_options(prepared, state.clock);
 
-    grid::advance_nodes(prepared.walls, problem.gravity, state.clock.dt, state.levels);
+    add_external_forces(problem, state, derived);
+    add_external_work(problem, derived, state);
+    grid::advance_nodes(prepared.walls, problem.gravity, problem.numerics.damping, state.clock.dt, state.levels);
+    add_damped_work(problem, derived, state);
     apply_loads(problem, prepared, derived.load_nodes, state.clock.time, state.clock.dt, state.levels, state.loads);
     grid::prolong_motion(state.levels);
     grid::fill_motion_halos(state.levels);
+    add_external_work(problem, derived, state);
 
     transfer::advance_lattice(options, prepared.laws, state.lattice, state.particles, state.levels, state.leaf_work);
 

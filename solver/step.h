@@ -5,6 +5,7 @@
 #include "solver/loads.h"
 #include "solver/prepared.h"
 #include "solver/state.h"
+#include "solver/surface.h"
 
 #include <vector>
 
@@ -16,6 +17,8 @@ struct Derived
     std::vector<LoadNodes> load_nodes;
     std::vector<std::uint32_t> gauge_upper, gauge_lower; // present places of the gauge particles
     LigamentMap ligaments;
+    SurfaceForces surface;
+    std::vector<Vec3> external; // [leaf][729] N, scratch: forces of this step that are not internal
 };
 
 /// Particles, leaves and sums at time 0.
@@ -31,6 +34,7 @@ void resume(const Problem& problem, const Prepared& prepared, State& state, Deri
 /// | phase                         | reads                               | writes                           |
 /// |-------------------------------|-------------------------------------|----------------------------------|
 /// | stable_time_step              | speeds, deformation, spacing        | dt                               |
+/// | add_external_forces           | particles, clock                    | sums (cases that have some)      |
 /// | grid::assemble_sums           | halo sums of neighbours             | sums of owned nodes              |
 /// | grid::restrict_sums           | sums of slaves                      | sums of masters                  |
 /// | grid::advance_momentum        | mass, momentum, force               | node velocity and its change     |

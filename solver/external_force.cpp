@@ -1,0 +1,163 @@
+#include "solver/external_force.h"
+
+#include "core/parallel.h"
+#include "grid/walls.h"
+#include "solver/loads.h"
+#include "solver/nodal.h"
+#include "transfer/home_cells.h"
+
+#include <algorithm>
+
+namespace solver
+{
+namespace
+{
+Vec3 vector_at(const std::array<particles::Column, 3>& columns, std::size_t p)
+{
+    return {columns[0][p], columns[1][p], columns[2][p]};
+}
+
+void add_at(const transfer::CellFrame& frame, const Vec3& point, const Vec3& force, Vec3* tile)
+{
+    transfer::for_corners(frame, transfer::clamped_position(frame, point),
+                          [&](int node, Real weight) { tile[node] += weight * force; });
+}
+
+/// Body force and surface forces of every particle to the tiles of `derived.external`.
+void gather_forces(const Problem& problem, const State& state, Derived& derived)
+{
+    const particles::Particles& particles = state.particles;
+    const bool total = problem.numerics.formulation == Formulation::total;
+    const auto& position = total ? particles.rest_position : particles.position;
+    const Real time = state.clock.time;
+    std::vector<Real> ramp;
+    for (const SurfaceLoad& load : problem.surface_loads) ramp.push_back(ramp_value(load.ramp, time));
+    const SurfaceForces& surface = derived.surface;
+    transfer::for_each_in_cell(
+        state.strays, particles, state.levels, [&](std::size_t leaf, const transfer::CellFrame& frame, std::size_t p) {
+            Vec3* tile = derived.external.data() + leaf * grid::tile_nodes;
+            const Vec3 x = vector_at(position, p);
+            if (const auto motion = problem.bodies[particles.body[p]].body_force) {
+                const Vec3 rest = vector_at(particles.rest_position, p);
+                const Vec3 pull = at(problem.motions[static_cast<std::size_t>(*motion)], rest, time).body_force;
+                add_at(frame, x, particles.mass[p] * pull, tile);
+            }
+            if (surface.start.empty()) return;
+            for (std::uint32_t f = surface.start[p]; f < surface.start[p + 1]; ++f) {
+                const FaceForce& face = surface.face[f];
+                add_at(frame, x + face.offset, ramp[static_cast<std::size_t>(face.load)] * face.force, tile);
+            }
+        });
+}
+
+/// Sum over leaves, formed in their order.
+template <class OfLeaf>
+Real sum_over_leaves(std::size_t leaves, const OfLeaf& of_leaf)
+{
+    std::vector<Real> part(leaves, 0);
+    core::parallel_for(leaves, [&](std::size_t n) { part[n] = of_leaf(n); });
+    Real sum = 0;
+    for (const Real value : part) sum += value;
+    return sum;
+}
+
+/// Mean velocity of a step at an owned node, and its mass; loads not yet applied.
+struct Damped
+{
+    Real mass = 0;
+    std::array<Real, 3> velocity{};
+};
+
+Damped damped_at(const Problem& problem, const State& state, std::size_t leaf, int node)
+{
+    const Real dt = state.clock.dt, half = problem.numerics.damping * dt / 2;
+    const grid::NodeMotion& motion = state.levels.motions(leaf)[node];
+    Damped damped;
+    damped.mass = nodal(problem) ? state.levels.forces(leaf)[node].mass() : state.levels.sums(leaf)[node].mass;
+    if (damped.mass <= 0) return damped;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const Real after = motion.velocity[a];
+        if (!nodal(problem)) {
+            damped.velocity[a] = after - motion.change[a] / 2;
+        } else if (after != 0) { // a component that is exactly 0 is held by a wall
+            const Real pull =
+                state.levels.forces(leaf)[node].force[a] / damped.mass + problem.gravity[static_cast<int>(a)];
+            const Real before = ((1 + half) * after - dt * pull) / (1 - half);
+            damped.velocity[a] = (before + after) / 2;
+        }
+    }
+    return damped;
+}
+} // namespace
+
+bool has_external_forces(const Problem& problem)
+{
+    return !problem.surface_loads.empty() || std::any_of(problem.bodies.begin(), problem.bodies.end(),
+                                                         [](const Body& body) { return body.body_force.has_value(); });
+}
+
+void add_external_forces(const Problem& problem, State& state, Derived& derived)
+{
+    if (!has_external_forces(problem)) return;
+    const std::size_t leaves = state.levels.leaves.size();
+    derived.external.assign(leaves * grid::tile_nodes, Vec3::Zero());
+    gather_forces(problem, state, derived);
+    const bool on_forces = nodal(problem);
+    core::parallel_for(leaves, [&](std::size_t n) {
+        const Vec3* tile = derived.external.data() + n * grid::tile_nodes;
+        for (int i = 0; i < grid::tile_nodes; ++i) {
+            auto& force = on_forces ? state.levels.forces(n)[i].force : state.levels.sums(n)[i].force;
+            for (std::size_t a = 0; a < 3; ++a) force[a] += tile[i][static_cast<int>(a)];
+        }
+    });
+}
+
+void add_external_work(const Problem& problem, const Derived& derived, State& state)
+{
+    if (!has_external_forces(problem)) return;
+    const bool twice = nodal(problem);
+    state.source_work += state.clock.dt * sum_over_leaves(state.levels.leaves.size(), [&](std::size_t n) {
+                             const Vec3* tile = derived.external.data() + n * grid::tile_nodes;
+                             Real power = 0;
+                             for (int i = 0; i < grid::tile_nodes; ++i) {
+                                 const grid::NodeMotion& motion = state.levels.motions(n)[i];
+                                 for (std::size_t a = 0; a < 3; ++a)
+                                     power +=
+                                         tile[i][static_cast<int>(a)] *
+                                         (twice ? motion.velocity[a] / 2 : motion.velocity[a] - motion.change[a] / 2);
+                             }
+                             return power;
+                         });
+}
+
+void add_damped_work(const Problem& problem, const Derived& derived, State& state)
+{
+    if (problem.numerics.damping == 0) return;
+    Real sum = sum_over_leaves(state.levels.leaves.size(), [&](std::size_t n) {
+        Real energy = 0;
+        grid::for_owned_nodes([&](int node) {
+            const Damped damped = damped_at(problem, state, n, node);
+            for (const Real v : damped.velocity) energy += damped.mass * v * v;
+        });
+        return energy;
+    });
+    for (std::size_t i = 0; i < derived.load_nodes.size(); ++i) // held nodes are moved, not damped
+        for (const grid::NodeAddress& held : derived.load_nodes[i].node) {
+            const Damped damped = damped_at(problem, state, static_cast<std::size_t>(held.leaf), held.node);
+            for (int a = 0; a < 3; ++a)
+                if (holds(problem.loads[i], a)) {
+                    const Real v = damped.velocity[static_cast<std::size_t>(a)];
+                    sum -= damped.mass * v * v;
+                }
+        }
+    state.damped_work += problem.numerics.damping * state.clock.dt * sum;
+}
+
+Real surface_force(const Problem& problem, const Derived& derived, std::size_t load, int axis, Real time)
+{
+    Real factor = 1;
+    for (const SymmetryPlane& plane : problem.symmetry)
+        if (plane.axis != axis) factor *= 2;
+    return factor * ramp_value(problem.surface_loads[load].ramp, time) * derived.surface.total[load][axis];
+}
+} // namespace solver

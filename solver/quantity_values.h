@@ -1,0 +1,35 @@
+/// Values of the kinds of measures at one time, each from no more than it needs.
+#pragma once
+
+#include "grid/levels.h"
+#include "particles/particles.h"
+#include "solver/motion.h"
+#include "solver/quantity.h"
+#include "solver/state.h"
+
+namespace solver
+{
+/// Particles with every column, and what their sizes follow from.
+struct ParticleView
+{
+    const particles::Particles& particles;
+    const grid::Levels& levels;
+    int per_axis;
+};
+
+Vec3 rest_of(const particles::Particles& particles, std::size_t p);
+/// Present over rest volume.
+Real volume_ratio(const particles::Particles& particles, std::size_t p);
+Real field_value(const FieldComponent& field, const particles::Particles& particles, std::size_t p);
+
+// NaN where nothing is there to be measured.
+Real value_of(const Probe& probe, const ParticleView& view);
+Real value_of(const Difference& difference, const ParticleView& view);
+Real value_of(const Extent& extent, const ParticleView& view);
+Real value_of(const Momentum& momentum, const ParticleView& view);
+Real value_of(const Volume& volume, const ParticleView& view);
+Real value_of(const CrackQuantity& crack, const particles::Particles& particles);
+Real value_of(const Energy& energy, const Ledger& ledger);
+/// @param clock  velocity belongs to time - dt / 2
+Real value_of(const FieldError& error, const Motion& motion, const Clock& clock, const ParticleView& view);
+} // namespace solver
