@@ -35,7 +35,7 @@ const solver::Feature* find_feature(Draft& draft, const std::string& name, const
     return nullptr;
 }
 
-int find_material(Draft& draft, const std::string& name, const Place& place)
+int material_index(Draft& draft, const std::string& name, const Place& place)
 {
     std::vector<std::string> names;
     for (const material::Material& material : draft.problem.materials) names.push_back(material.name);

@@ -74,7 +74,7 @@ void check_case(Draft& draft);
 const solver::Feature* find_feature(Draft& draft, const std::string& name, const Place& place);
 
 /// Index of the material of that name, or an error at `place` and 0.
-int find_material(Draft& draft, const std::string& name, const Place& place);
+int material_index(Draft& draft, const std::string& name, const Place& place);
 /// Index of the motion named at a key of a section; empty if the key is absent or (with an error) names none.
 std::optional<int> find_motion(Draft& draft, SectionReader& section, std::string_view key);
 

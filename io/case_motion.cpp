@@ -113,7 +113,7 @@ void read_motion(Draft& draft, const Entry& entry)
     motion.name = entry.key;
     const std::string material = section.text("material");
     if (section.sound()) {
-        const std::size_t index = static_cast<std::size_t>(find_material(draft, material, section.place("material")));
+        const std::size_t index = static_cast<std::size_t>(material_index(draft, material, section.place("material")));
         if (index < draft.problem.materials.size()) motion.elastic = draft.problem.materials[index].elastic;
     }
     int kinds = 0;

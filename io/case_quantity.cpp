@@ -22,7 +22,6 @@ FieldComponent read_field(SectionReader& section)
     using Field = FieldComponent::Field;
     using Component = FieldComponent::Component;
     FieldComponent field;
-    if (!section.has("field")) (void)section.text("field"); // complains
     field.field = section.choice<Field>("field");
     const bool vector = field.field <= Field::position;
     const bool tensor = field.field == Field::stress;
@@ -114,7 +113,6 @@ Kind read_extent(Draft& draft, SectionReader& section)
 
 Kind read_energy(Draft&, SectionReader& section)
 {
-    if (!section.has("what")) (void)section.text("what"); // complains
     return solver::Energy{section.choice<solver::Energy::What>("what")};
 }
 
@@ -136,7 +134,6 @@ Kind read_field_error(Draft& draft, SectionReader& section)
 {
     using Field = FieldComponent::Field;
     solver::FieldError error;
-    if (!section.has("motion")) (void)section.text("motion"); // complains
     error.motion = static_cast<std::size_t>(find_motion(draft, section, "motion").value_or(0));
     constexpr Field fields[] = {Field::displacement, Field::velocity, Field::stress};
     error.field = fields[section.choice<int>("field")];
@@ -148,7 +145,6 @@ Kind read_field_error(Draft& draft, SectionReader& section)
 Kind read_crack(Draft& draft, SectionReader& section)
 {
     solver::CrackQuantity crack;
-    if (!section.has("what")) (void)section.text("what"); // complains
     crack.what = section.choice<solver::CrackQuantity::What>("what");
     crack.axis = section.axis("axis");
     crack.region = read_region(draft, section);

@@ -59,7 +59,7 @@ void read_bodies(Draft& draft)
         body.shape = read_shape(draft, section, "shape");
         const std::string material = section.text("material");
         if (section.has("material") && !material.empty())
-            body.material = find_material(draft, material, section.place("material"));
+            body.material = material_index(draft, material, section.place("material"));
         body.velocity = section.vector("velocity");
         body.initial = find_motion(draft, section, "initial");
         body.body_force = find_motion(draft, section, "body_force");

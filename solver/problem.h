@@ -45,10 +45,10 @@ struct Body
 {
     std::string name;
     geometry::Shape shape;
-    int material = 0;              // index into Problem::materials
-    Vec3 velocity = Vec3::Zero();  // mm/ms, initial
-    std::optional<int> initial;    // index into Problem::motions: the state it begins with
-    std::optional<int> body_force; // likewise: whose body force acts on it
+    int material = 0;                   // index into Problem::materials
+    Vec3 velocity = Vec3::Zero();       // mm/ms, initial
+    std::optional<int> initial = {};    // index into Problem::motions: the state it begins with
+    std::optional<int> body_force = {}; // likewise: whose body force acts on it
 };
 
 struct Numerics

@@ -61,6 +61,14 @@ void expect_same(const solver::State& a, const solver::State& b)
     EXPECT_EQ(bits(a.leaf_work), bits(b.leaf_work));
     EXPECT_EQ(bits(std::vector{a.folded_work}), bits(std::vector{b.folded_work}));
     EXPECT_EQ(a.initial_energy, b.initial_energy);
+    EXPECT_EQ(a.source_work, b.source_work);
+    EXPECT_EQ(a.damped_work, b.damped_work);
+    ASSERT_EQ(a.samples.size(), b.samples.size());
+    for (std::size_t s = 0; s < a.samples.size(); ++s) {
+        EXPECT_EQ(a.samples[s].step, b.samples[s].step);
+        EXPECT_EQ(a.samples[s].time, b.samples[s].time);
+        EXPECT_EQ(a.samples[s].value, b.samples[s].value);
+    }
     EXPECT_EQ(bits(a.history), bits(b.history));
     for (std::size_t l = 0; l < a.history.size(); ++l) EXPECT_EQ(a.history[l].particles, b.history[l].particles);
     EXPECT_EQ(a.gauge_upper, b.gauge_upper);

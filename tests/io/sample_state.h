@@ -43,6 +43,7 @@ inline void add_leaf(int level, const Index3& origin, int layers, int per_axis, 
             particles.target_level.push_back(static_cast<std::uint8_t>(level));
             particles.size_level.push_back(static_cast<std::uint8_t>(level));
             particles.material.push_back(0);
+            particles.body.push_back(static_cast<std::uint8_t>(part % 2));
             particles.away.push_back(part == 0 ? 1 : 0);
         }
     }
@@ -89,13 +90,16 @@ inline solver::State state()
     state.clock = {400, Real(0.1) / 3, 1.25e-5};
     for (int i = 0; i < 2; ++i) {
         const Real seed = Real(1) / (7 + i);
-        state.loads.push_back(
-            {Vec3(seed, 2 * seed, 3), seed / 3, seed / 5, Vec3(1, seed, 9), Vec3(seed, 4, 5), seed / 11, 17 * seed});
+        state.loads.push_back({Vec3(seed, 2 * seed, 3), seed / 3, seed / 5, Vec3(1, seed, 9), Vec3(seed, 4, 5),
+                               seed / 11, Vec3(6, seed, 8), seed / 13, 17 * seed});
     }
     state.ligaments.push_back({0.1, 2000, 0.3, 0.4, 5000, 0.6, -1, 0.1, 0.2, 1.0 / 3});
     state.leaf_work = {{1.0 / 3, 0.25}, {7, 1.0 / 9}};
     state.folded_work = {0.125, 1.0 / 6};
     state.initial_energy = 1.0 / 7;
+    state.source_work = 1.0 / 9;
+    state.damped_work = 1.0 / 11;
+    for (int i = 0; i < 3; ++i) state.samples.push_back({50 * i, i / Real(13), {i / Real(17), i / Real(19)}});
     for (int i = 0; i <= 4; ++i) {
         solver::HistoryLine& line = state.history.emplace_back();
         line.step = 100 * i;
@@ -104,7 +108,7 @@ inline solver::State state()
         line.force_upper = 1000 * i / Real(3);
         line.force_lower = -line.force_upper * 0.99;
         line.cod = i / Real(7);
-        line.energy = {0.1 * i, 1.0 / (i + 3), 3.0 * i, 0.5 * i, 4.0 * i, 0.25};
+        line.energy = {0.1 * i, 1.0 / (i + 3), 3.0 * i, 0.5 * i, 4.0 * i, 0.25, 0.125 * i};
         line.max_damage = i / Real(4);
         line.separated_particles = static_cast<std::uint64_t>(i);
         line.particles = {2048, 4096 + static_cast<std::uint64_t>(i)};
