@@ -39,12 +39,9 @@ solver::Problem free_bar(Real cell)
 }
 
 const solver::Numerics schemes[] = {
-    support::numerics(solver::Formulation::updated),
-    support::gimp_numerics(solver::Transfer::flip),
-    support::gimp_numerics(solver::Transfer::apic),
-    support::numerics(solver::Formulation::total),
-    support::nodal_numerics(solver::Precision::f64),
-    support::nodal_numerics(solver::Precision::mixed),
+    support::numerics(solver::Formulation::updated), support::gimp_numerics(solver::Transfer::flip),
+    support::gimp_numerics(solver::Transfer::apic),  support::numerics(solver::Formulation::total),
+    support::nodal_numerics(solver::Precision::f64), support::nodal_numerics(solver::Precision::mixed),
 };
 
 solver::SurfaceForces forces_of(const solver::Problem& problem)

@@ -54,16 +54,17 @@ TEST(Motion, derivatives_are_those_of_the_displacement)
         SCOPED_TRACE(sample.name);
         const auto state = [&](const Vec3& x, Real t) { return at(sample.motion, x, t); };
         const solver::MotionState now = state(sample.place, instant);
-        const solver::MotionState before = state(sample.place, instant - small), after = state(sample.place, instant + small);
+        const solver::MotionState before = state(sample.place, instant - small),
+                                  after = state(sample.place, instant + small);
         const Real speed = now.velocity.norm();
         EXPECT_LT(((after.displacement - before.displacement) / (2 * small) - now.velocity).norm(), 1e-5 * speed);
         EXPECT_LT(((after.deformation - before.deformation) / (2 * small) - now.rate).norm(), 1e-4 * now.rate.norm());
         Mat3 gradient = Mat3::Identity();
         for (int a = 0; a < 3; ++a) {
             const Vec3 step = small * Vec3::Unit(a);
-            gradient.col(a) += (state(sample.place + step, instant).displacement -
-                                state(sample.place - step, instant).displacement) /
-                               (2 * small);
+            gradient.col(a) +=
+                (state(sample.place + step, instant).displacement - state(sample.place - step, instant).displacement) /
+                (2 * small);
         }
         // A bar wave contracts sideways without moving sideways: only its axis is compared.
         if (const auto* packet = std::get_if<solver::Packet>(&sample.motion.kind))
@@ -79,12 +80,14 @@ TEST(Motion, body_force_is_acceleration_minus_divergence_of_stress)
         SCOPED_TRACE(sample.name);
         const auto state = [&](const Vec3& x, Real t) { return at(sample.motion, x, t); };
         const Vec3 acceleration =
-            (state(sample.place, instant + small).velocity - state(sample.place, instant - small).velocity) / (2 * small);
+            (state(sample.place, instant + small).velocity - state(sample.place, instant - small).velocity) /
+            (2 * small);
         Vec3 divergence = Vec3::Zero();
         for (int a = 0; a < 3; ++a) {
             const Vec3 step = small * Vec3::Unit(a);
-            divergence += (piola(state(sample.place + step, instant)) - piola(state(sample.place - step, instant))).col(a) /
-                          (2 * small);
+            divergence +=
+                (piola(state(sample.place + step, instant)) - piola(state(sample.place - step, instant))).col(a) /
+                (2 * small);
         }
         const Vec3 wanted = acceleration - divergence / sample.motion.elastic.density;
         const Real size = acceleration.norm() + divergence.norm() / sample.motion.elastic.density;
@@ -112,8 +115,8 @@ TEST(Motion, stress_is_that_of_the_law_along_the_path)
                                   : at(sample.motion, sample.place, share * instant).deformation;
             const Mat3 g = (next - f) * ((next + f) / 2).inverse();
             solver::PointStep step;
-            step.strain = {{g(0, 0), g(1, 1), g(2, 2), (g(0, 1) + g(1, 0)) / 2, (g(1, 2) + g(2, 1)) / 2,
-                            (g(0, 2) + g(2, 0)) / 2}};
+            step.strain = {
+                {g(0, 0), g(1, 1), g(2, 2), (g(0, 1) + g(1, 0)) / 2, (g(1, 2) + g(2, 1)) / 2, (g(0, 2) + g(2, 0)) / 2}};
             step.rotation = {{(g(2, 1) - g(1, 2)) / 2, (g(0, 2) - g(2, 0)) / 2, (g(1, 0) - g(0, 1)) / 2}};
             step.dt = instant / steps;
             point = solver::advance(law, point, step);
