@@ -1,6 +1,7 @@
 /// The momentum update on the nodes, symplectic Euler, with symmetry planes.
 ///
-/// v = p / m,  v+ = v + dt (f / m + g - a (v + v+) / 2);  normal components on symmetry planes are zero before and after.
+/// v = p / m,  v+ = v + dt (f / m + g - a (v + v+) / 2);  normal components on symmetry planes are zero before and
+/// after.
 #pragma once
 
 #include "grid/walls.h"

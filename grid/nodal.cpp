@@ -137,8 +137,8 @@ void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, Rea
             // Fourth lanes: the spare places, which nobody reads, and 1 / m.
             const Real impulse = reached * dt * force[i].per_mass;
             const Line fall(impulse == 0 ? Line(Real(0)) : falling);
-            const Line velocity =
-                Line(kept) * Line::load(motion[i].velocity.data()) + Line(impulse) * Line::load(force[i].force.data()) * axes + fall;
+            const Line velocity = Line(kept) * Line::load(motion[i].velocity.data()) +
+                                  Line(impulse) * Line::load(force[i].force.data()) * axes + fall;
             velocity.store(motion[i].velocity.data());
             (Line::load(motion[i].change.data()) + Line(dt) * velocity).store(motion[i].change.data());
         });
