@@ -37,6 +37,7 @@ struct RunFiles
     io::CheckpointCase of_case;
     io::RunRecord record;
     std::unique_ptr<io::HistoryFile> history;
+    std::optional<std::size_t> events; // lines in events.csv; empty: not written in this part of the run
     Schedule history_due, particles_due, grid_due, vdb_due;
     int vdb_frame = 0;
     std::int64_t last_particles = -1, last_grid = -1, last_vdb = -1; // steps of the newest frames
@@ -50,6 +51,13 @@ std::filesystem::path result_directory(const RunOptions& options);
 
 /// Create the directory, write resolved.toml and the first run.json.
 RunFiles open_files(const std::filesystem::path& directory, const io::Case& run_case);
+
+/// Append a history line of the present state; write events.csv anew if it saw something.
+void write_history_line(const solver::Problem& problem, const solver::Prepared& prepared,
+                        const solver::Derived& derived, solver::State& state, RunFiles& files);
+
+/// Write events.csv if it does not hold the events of the state; cases without ligaments have none.
+void write_events(const solver::Problem& problem, const solver::State& state, RunFiles& files);
 
 /// Whatever is due at the present step.
 void write_due(const solver::Problem& problem, const solver::Prepared& prepared, const solver::Derived& derived,

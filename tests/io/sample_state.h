@@ -93,6 +93,8 @@ inline solver::State state()
             {Vec3(seed, 2 * seed, 3), seed / 3, seed / 5, Vec3(1, seed, 9), Vec3(seed, 4, 5), seed / 11, 17 * seed});
     }
     state.ligaments.push_back({0.1, 2000, 0.3, 0.4, 5000, 0.6, -1, 0.1, 0.2, 1.0 / 3});
+    state.events = {{100, 0.1, 2000, 0.3, 0, 0, solver::EventKind::onset},
+                    {400, 0.4, 5000, 0.6, 1.0 / 3, 0, solver::EventKind::first}};
     state.leaf_work = {{1.0 / 3, 0.25}, {7, 1.0 / 9}};
     state.folded_work = {0.125, 1.0 / 6};
     state.initial_energy = 1.0 / 7;
