@@ -6,6 +6,7 @@
 #include "grid/nodal.h"
 #include "solver/follow.h"
 #include "solver/nodal.h"
+#include "solver/nonlocal.h"
 #include "solver/stable_time_step.h"
 
 namespace solver
@@ -64,6 +65,7 @@ void step(const Problem& problem, const Prepared& prepared, State& state, Derive
     move_nodes(problem, prepared, derived, state);
 
     transfer::advance_and_scatter(options, prepared.laws, state.strays, state.particles, state.levels, state.leaf_work);
+    start_nonlocal_cracks(options, prepared, state, derived.nonlocal);
 
     tick(state.clock);
     follow_particles(problem, prepared, state, derived);
@@ -79,6 +81,7 @@ void step_musl(const Problem& problem, const Prepared& prepared, State& state, D
     move_nodes_again(problem, prepared, derived, state);
 
     transfer::advance_and_scatter(options, prepared.laws, state.strays, state.particles, state.levels, state.leaf_work);
+    start_nonlocal_cracks(options, prepared, state, derived.nonlocal);
 
     tick(state.clock);
     follow_particles(problem, prepared, state, derived);
@@ -95,6 +98,7 @@ void step_nodal(const Problem& problem, const Prepared& prepared, State& state, 
     grid::fill_motion_halos(state.levels);
 
     transfer::advance_lattice(options, prepared.laws, state.lattice, state.particles, state.levels, state.leaf_work);
+    start_nonlocal_cracks(options, prepared, state, derived.nonlocal);
 
     tick(state.clock);
 }

@@ -5,6 +5,7 @@
 #include "solver/loads.h"
 #include "solver/prepared.h"
 #include "solver/state.h"
+#include "transfer/nonlocal_onset.h"
 
 #include <vector>
 
@@ -16,6 +17,7 @@ struct Derived
     std::vector<LoadNodes> load_nodes;
     std::vector<std::uint32_t> gauge_upper, gauge_lower; // present places of the gauge particles
     LigamentMap ligaments;
+    transfer::NonlocalTable nonlocal;
 };
 
 /// Particles, leaves and sums at time 0.
@@ -38,6 +40,7 @@ void resume(const Problem& problem, const Prepared& prepared, State& state, Deri
 /// | grid::prolong_motion          | velocity of masters                 | velocity of slaves               |
 /// | grid::fill_motion_halos       | velocity of owners                  | velocity of halos                |
 /// | transfer::advance_and_scatter | node velocity, particles            | particles; sums of the next step |
+/// | start_nonlocal_cracks         | stress, node velocity               | cracks that start                |
 /// | follow_particles              | strays                              | order of particles, leaves       |
 void step(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
 
