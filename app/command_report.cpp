@@ -3,6 +3,7 @@
 #include "app/report_page.h"
 #include "io/atomic_file.h"
 #include "io/case.h"
+#include "io/event_file.h"
 #include "io/history_file.h"
 
 #include <CLI/CLI.hpp>
@@ -17,8 +18,13 @@ namespace
 int write_report(const std::filesystem::path& directory)
 {
     const std::filesystem::path resolved = directory / "resolved.toml";
-    const Report report{io::read_run_record(directory / "run.json"), io::read_case(resolved), io::read_file(resolved),
+    const std::filesystem::path events = directory / "events.csv";
+    const Report report{io::read_run_record(directory / "run.json"),
+                        io::read_case(resolved),
+                        io::read_file(resolved),
                         io::read_history(directory / "history.csv"),
+                        std::filesystem::exists(events) ? io::read_events(events)
+                                                        : std::vector<std::vector<std::string>>{},
                         io::read_last_particle_frame(directory / "particles", report_fields)};
     const std::filesystem::path page = directory / "report.html";
     io::write_file(page, report_page(report));

@@ -148,6 +148,7 @@ int run_case(const RunOptions& options)
     Run run{read.problem, solver::prepare(read.problem), solver::Derived{}, solver::State{}};
     try {
         begin(options, log, run, files);
+        write_events(run.problem, run.state, files);
         io::return_free_memory();
         log.line(fmt::format("cleave {}: {}\n{} particles, {} threads, results in {}", CLEAVE_VERSION,
                              read.problem.title, run.state.particles.size(), threads, directory.string()));
@@ -156,7 +157,7 @@ int run_case(const RunOptions& options)
         if (ending == Ending::done) {
             // Forces are means since the last line: there is none to form if that was this step.
             if (run.state.history.empty() || run.state.history.back().step != run.state.clock.step)
-                files.history->append(solver::observe(run.problem, run.prepared, run.derived, run.state));
+                write_history_line(run.problem, run.prepared, run.derived, run.state, files);
             write_probes(run.problem, run.prepared, run.derived, run.state, files);
             write_last_frames(run.problem, run.state, files);
         }

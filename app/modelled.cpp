@@ -23,6 +23,18 @@ std::string scheme_text(const solver::Numerics& n)
                                                                      : "last (USL)");
 }
 
+std::string onset_text(const material::Material& m)
+{
+    const material::Decohesion& law = *m.decohesion;
+    if (law.nonlocal_radius > 0)
+        return fmt::format("{}: onset on the mean stress of a ball of radius {} mm; {}", m.name, law.nonlocal_radius,
+                           law.crack_exclusion > 0
+                               ? fmt::format("no parallel crack plane within {} mm", law.crack_exclusion)
+                               : std::string("no rule against parallel crack planes"));
+    return fmt::format("{}: onset on {} (changes with the cell size where plastic strain localises)", m.name,
+                       law.smoothed_onset ? "the mean stress of the cell" : "the particle's own stress");
+}
+
 std::string cracks_text(const material::Material& m, const solver::State& state)
 {
     std::size_t count[3] = {0, 0, 0};
@@ -63,6 +75,7 @@ std::vector<std::string> modelled(const solver::Problem& problem, const solver::
         text.push_back(
             fmt::format("{}: {}{}", m.name, m.plastic ? "von Mises, linear hardening" : "elastic",
                         m.plastic && m.cell_averaged_dilatation ? ", cell-averaged dilatation against locking" : ""));
+        if (m.decohesion) text.push_back(onset_text(m));
         if (m.decohesion) text.push_back(cracks_text(m, state));
     }
     return text;

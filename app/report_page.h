@@ -18,7 +18,8 @@ struct Report
     solver::Problem problem;
     std::string resolved; // text of resolved.toml
     std::vector<solver::HistoryLine> history;
-    std::optional<io::ParticleFrame> frame; // last one, with the fields of `report_fields`
+    std::vector<std::vector<std::string>> events; // lines of events.csv, the header first; empty: no ligaments
+    std::optional<io::ParticleFrame> frame;       // last one, with the fields of `report_fields`
 };
 
 /// Fields the report draws where the particle files hold them.

@@ -3,6 +3,7 @@
 #include "app/modelled.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/event_file.h"
 #include "io/grid_file.h"
 #include "io/particle_file.h"
 #include "io/probe_file.h"
@@ -136,13 +137,27 @@ void write_probes(const solver::Problem& problem, const solver::Prepared& prepar
     files.probes->append(io::probe_text(problem.quantities, take_sample(problem, prepared, derived, state)));
 }
 
+void write_events(const solver::Problem& problem, const solver::State& state, RunFiles& files)
+{
+    if (problem.ligaments.empty() || files.events == state.events.size()) return;
+    io::write_file(files.directory / "events.csv", io::events_text(problem, state));
+    files.events = state.events.size();
+}
+
+void write_history_line(const solver::Problem& problem, const solver::Prepared& prepared,
+                        const solver::Derived& derived, solver::State& state, RunFiles& files)
+{
+    files.history->append(solver::observe(problem, prepared, derived, state));
+    write_events(problem, state, files);
+}
+
 void write_due(const solver::Problem& problem, const solver::Prepared& prepared, const solver::Derived& derived,
                solver::State& state, RunFiles& files)
 {
     std::optional<Real> cod;
     if (state.clock.step % opening_interval == 0) cod = solver::gauge_opening(problem, state, derived);
     const bool history = files.history_due.due(state.clock, cod);
-    if (history) files.history->append(observe(problem, prepared, derived, state));
+    if (history) write_history_line(problem, prepared, derived, state, files);
     if (wanted(problem.output.probes) ? files.probes_due.due(state.clock, cod) : history)
         write_probes(problem, prepared, derived, state, files);
     const bool particles = files.particles_due.due(state.clock, cod);

@@ -40,6 +40,7 @@ struct RunFiles
     std::unique_ptr<io::HistoryFile> history;
     std::unique_ptr<io::LineFile> probes; // null: the case measures nothing of its own
     Schedule history_due, probes_due, particles_due, grid_due, vdb_due;
+    std::optional<std::size_t> events; // lines in events.csv; empty: not written in this part of the run
     int vdb_frame = 0;
     std::int64_t last_particles = -1, last_grid = -1, last_vdb = -1; // steps of the newest frames
     double last_checkpoint = 0;                                      // s, wall time since the start of this part
@@ -56,6 +57,12 @@ RunFiles open_files(const std::filesystem::path& directory, const io::Case& run_
 /// Values of the measures now, to probes.csv; nothing if this step has them already.
 void write_probes(const solver::Problem& problem, const solver::Prepared& prepared, const solver::Derived& derived,
                   solver::State& state, RunFiles& files);
+/// Append a history line of the present state; write events.csv anew if it saw something.
+void write_history_line(const solver::Problem& problem, const solver::Prepared& prepared,
+                        const solver::Derived& derived, solver::State& state, RunFiles& files);
+
+/// Write events.csv if it does not hold the events of the state; cases without ligaments have none.
+void write_events(const solver::Problem& problem, const solver::State& state, RunFiles& files);
 
 /// Whatever is due at the present step.
 void write_due(const solver::Problem& problem, const solver::Prepared& prepared, const solver::Derived& derived,

@@ -90,6 +90,10 @@ material::Decohesion read_decohesion(Draft& draft, SectionReader& section)
     law.drop_transits = section.real("drop_transits");
     law.onset_strength = section.choice<material::OnsetStrength>("onset_strength");
     law.smoothed_onset = section.boolean("smoothed_onset", !as_paper);
+    law.nonlocal_radius = section.real("nonlocal_radius");
+    law.crack_exclusion = section.real("crack_exclusion", law.nonlocal_radius);
+    if (law.crack_exclusion > 0 && law.nonlocal_radius == 0)
+        section.error("crack_exclusion", "crack_exclusion belongs to the nonlocal onset", "add a nonlocal_radius");
     law.friction = section.real("friction");
     return law;
 }

@@ -271,6 +271,7 @@ void store_state(const solver::State& state, Hdf5Writer& file)
     store_rows("/clock", std::vector{state.clock}, file);
     store_rows("/loads", state.loads, file);
     store_rows("/ligaments", state.ligaments, file);
+    store_rows("/events", state.events, file);
     store_rows("/leaf_work", state.leaf_work, file);
     store_rows("/folded_work", std::vector{state.folded_work}, file);
     file.attribute("/", "initial_energy", state.initial_energy);
@@ -292,6 +293,7 @@ solver::State load_state(const Hdf5Reader& file)
     state.clock = load_row<solver::Clock>("/clock", file);
     state.loads = load_rows<solver::LoadState>("/loads", file);
     state.ligaments = load_rows<solver::LigamentState>("/ligaments", file);
+    state.events = load_rows<solver::LigamentEvent>("/events", file);
     state.leaf_work = load_rows<solver::LeafWork>("/leaf_work", file);
     state.folded_work = load_row<solver::LeafWork>("/folded_work", file);
     state.initial_energy = file.attribute<Real>("/", "initial_energy").at(0);

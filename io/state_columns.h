@@ -78,6 +78,19 @@ void visit_members(solver::LigamentState& ligament, Visit&& visit)
 }
 
 template <class Visit>
+void visit_members(solver::LigamentEvent& event, Visit&& visit)
+{
+    static_assert(sizeof(solver::LigamentEvent) == 6 * sizeof(Real));
+    visit("step", event.step);
+    visit("time", event.time);
+    visit("force", event.force);
+    visit("cod", event.cod);
+    visit("front", event.front);
+    visit("ligament", event.ligament);
+    visit("kind", event.kind);
+}
+
+template <class Visit>
 void visit_members(solver::LeafWork& work, Visit&& visit)
 {
     static_assert(sizeof(solver::LeafWork) == 2 * sizeof(Real));

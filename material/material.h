@@ -68,6 +68,8 @@ struct Decohesion
     Real drop_transits = 8;         // 1, k of S4
     OnsetStrength onset_strength = OnsetStrength::plane;
     bool smoothed_onset = true; // test the onset on the cell mean of the stress
+    Real nonlocal_radius = 0;   // mm, test it on the mean over a ball instead (transfer/nonlocal_onset.h); 0: off
+    Real crack_exclusion = 0;   // mm, with a ball: no second crack plane this close beside a parallel one; 0: none
     Real friction = 0;          // 1, Coulomb coefficient of a closed crack
 };
 

@@ -45,6 +45,7 @@ void regrid(const Problem& problem, const Prepared& prepared, State& state, Deri
     transfer::cover_boxes(prepared.options, state.strays.refinement, state.particles, state.levels);
     fold_work(state);
     transfer::assign_all(state.particles, state.levels, state.strays);
+    derived.nonlocal = {};
     find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
     find_gauges(state, derived);
     weigh_columns(state.particles, derived.ligaments);

@@ -8,7 +8,6 @@ namespace solver
 {
 namespace
 {
-/// Ligaments whose first broken column is a crack initiation, in time order.
 std::vector<std::size_t> initiations(const Problem& problem, const std::vector<LigamentState>& states,
                                      const CrackPath& path)
 {
@@ -36,6 +35,12 @@ std::vector<std::size_t> initiations(const Problem& problem, const std::vector<L
 }
 } // namespace
 
+std::vector<std::size_t> crack_initiations(const Problem& problem, const std::vector<LigamentState>& ligaments)
+{
+    if (ligaments.empty()) return {};
+    return initiations(problem, ligaments, crack_path(problem.ligaments, ligaments, problem.start_features));
+}
+
 Real specimen_force(const Problem& problem, Real force_upper, Real force_lower)
 {
     if (problem.force_lower.empty()) return force_upper;
@@ -54,12 +59,7 @@ Measures measures(const Problem& problem, const std::vector<HistoryLine>& histor
     }
     result.numbers.push_back({"peak_force_N", peak});
 
-    CrackPath path;
-    std::vector<std::size_t> events;
-    if (!ligaments.empty()) {
-        path = crack_path(problem.ligaments, ligaments, problem.start_features);
-        events = initiations(problem, ligaments, path);
-    }
+    const std::vector<std::size_t> events = crack_initiations(problem, ligaments);
     for (std::size_t k = 0; k < 3; ++k) {
         const std::string name = "c" + std::to_string(k + 1);
         std::optional<Real> force, cod;
@@ -75,7 +75,8 @@ Measures measures(const Problem& problem, const std::vector<HistoryLine>& histor
     if (!history.empty() && history.back().energy.external != 0)
         residual = history.back().energy.residual() / history.back().energy.external;
     result.numbers.push_back({"energy_residual", residual});
-    result.crack_path = path_name(path);
+    if (!ligaments.empty())
+        result.crack_path = path_name(crack_path(problem.ligaments, ligaments, problem.start_features));
     return result;
 }
 } // namespace solver

@@ -23,6 +23,10 @@ struct Measures
     std::string crack_path;       // such as "A-D-C-E", empty: no ligament separated
 };
 
+/// Ligaments (indices) whose first broken column is a crack initiation, in time order: those of the crack path and, of
+/// the ones that continue it and have begun, the first.
+std::vector<std::size_t> crack_initiations(const Problem& problem, const std::vector<LigamentState>& ligaments);
+
 /// Names: peak_force_N; c1_force_N, c1_cod_mm, c2_..., c3_...; energy_residual.
 ///
 /// peak_force_N     largest force of the history (`specimen_force`)

@@ -2,6 +2,7 @@
 
 #include "solver/audit.h"
 #include "solver/external_force.h"
+#include "solver/ligament_events.h"
 #include "solver/measures.h"
 #include "solver/nodal.h"
 
@@ -73,9 +74,10 @@ HistoryLine observe(const Problem& problem, const Prepared& prepared, const Deri
         load.impulse.setZero();
         load.impulse_time = 0;
     }
-    update_ligaments(derived.ligaments, state.particles,
-                     {line.time, specimen_force(problem, line.force_upper, line.force_lower), line.cod},
-                     state.ligaments);
+    const Observation now{line.time, specimen_force(problem, line.force_upper, line.force_lower), line.cod};
+    const std::vector<LigamentState> before = state.ligaments;
+    update_ligaments(derived.ligaments, state.particles, now, state.ligaments);
+    log_events(before, state.ligaments, line.step, now, state.events);
     state.history.push_back(line);
     return line;
 }

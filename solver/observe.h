@@ -10,8 +10,8 @@ namespace solver
 /// Change of the gauge length since time 0 [mm]: mean displacement of the upper minus that of the lower particles.
 Real gauge_opening(const Problem& problem, const State& state, const Derived& derived);
 
-/// Make a history line of the present state: mean forces since the last line, opening, energies. Resets the impulses
-/// and appends the line to state.history.
+/// Make a history line of the present state: mean forces since the last line, opening, energies. Resets the impulses,
+/// appends the line to state.history and what happened on the ligaments to state.events.
 HistoryLine observe(const Problem& problem, const Prepared& prepared, const Derived& derived, State& state);
 
 /// Number of particles on each level.

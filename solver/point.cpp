@@ -1,5 +1,6 @@
 #include "solver/point.h"
 
+#include "material/acoustic.h"
 #include "material/decohesion.h"
 #include "material/rotation.h"
 
@@ -23,6 +24,9 @@ void advance_intact(const PointLaw& law, const PointStep& step, const core::Mat<
     state.stress = material::elastic_trial(core::rotated(rotation, state.stress), step.strain, law.lame);
     if (law.plastic) {
         const auto returned = material::radial_return(state.stress, state.eq_plastic_strain, *law.plastic);
+        if (returned.eq_plastic_strain > state.eq_plastic_strain)
+            state.acoustic_ratio =
+                material::bifurcation(law.material.elastic, law.plastic->hardening, returned.stress).ratio;
         state.stress = returned.stress;
         state.eq_plastic_strain = returned.eq_plastic_strain;
         state.plastic_work += returned.work;
@@ -60,6 +64,7 @@ PointState advance(const PointLaw& law, const PointState& before, const PointSte
     ++after.step;
     after.time += step.dt;
     after.strain = before.strain + step.strain;
+    after.acoustic_ratio = 1;
     const core::Mat<Real> rotation = material::incremental_rotation(step.rotation);
     if (before.crack)
         advance_cracked(law, step, rotation, after);

@@ -47,6 +47,7 @@ struct PointState
     Real decohesion_work = 0;         // mJ/mm^3, of opening, slip and friction
     std::optional<core::Crack> crack; // empty: intact
     std::int64_t onset_step = 0;      // of the crack
+    Real acoustic_ratio = 1;          // 1, material::bifurcation of the step; 1: elastic, or there is a crack
 };
 
 /// The state one step later. @cost about 1 us, no allocation

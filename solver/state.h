@@ -59,6 +59,25 @@ struct LigamentState
     Real front = 0;                                             // 1, share of the ligament's columns broken
 };
 
+enum class EventKind : std::int32_t
+{
+    onset,   // first particle with damage > 0 in the corridor
+    first,   // first through-broken column
+    front,   // the crack front has passed another multiple of front_interval (solver/ligament_events.h)
+    through, // broken columns join the two features
+};
+
+/// One line of events.csv; when a history line saw it first, with that line's force and opening.
+struct LigamentEvent
+{
+    std::int64_t step = 0;
+    Real time = 0;             // ms
+    Real force = 0, cod = 0;   // N, mm
+    Real front = 0;            // 1, share of the ligament broken
+    std::int32_t ligament = 0; // index into Problem::ligaments
+    EventKind kind = EventKind::onset;
+};
+
 /// One line of history.csv; forces are means over the interval since the line before, full specimen.
 struct HistoryLine
 {
@@ -89,6 +108,7 @@ struct State
     transfer::Lattice lattice; // nodal scheme only: holds stress and plastic strain between outputs
     std::vector<LoadState> loads;
     std::vector<LigamentState> ligaments;
+    std::vector<LigamentEvent> events;                   // every event so far
     std::vector<LeafWork> leaf_work;                     // [leaf]
     LeafWork folded_work;                                // mJ, of leaves that no longer exist
     Real initial_energy = 0;                             // mJ

@@ -7,6 +7,7 @@
 #include "solver/external_force.h"
 #include "solver/follow.h"
 #include "solver/nodal.h"
+#include "solver/nonlocal.h"
 #include "solver/stable_time_step.h"
 
 namespace solver
@@ -69,6 +70,7 @@ void step(const Problem& problem, const Prepared& prepared, State& state, Derive
     move_nodes(problem, prepared, derived, state);
 
     transfer::advance_and_scatter(options, prepared.laws, state.strays, state.particles, state.levels, state.leaf_work);
+    start_nonlocal_cracks(options, prepared, state, derived.nonlocal);
 
     tick(state.clock);
     follow_particles(problem, prepared, state, derived);
@@ -84,6 +86,7 @@ void step_musl(const Problem& problem, const Prepared& prepared, State& state, D
     move_nodes_again(problem, prepared, derived, state);
 
     transfer::advance_and_scatter(options, prepared.laws, state.strays, state.particles, state.levels, state.leaf_work);
+    start_nonlocal_cracks(options, prepared, state, derived.nonlocal);
 
     tick(state.clock);
     follow_particles(problem, prepared, state, derived);
@@ -104,6 +107,7 @@ void step_nodal(const Problem& problem, const Prepared& prepared, State& state, 
     add_external_work(problem, derived, state);
 
     transfer::advance_lattice(options, prepared.laws, state.lattice, state.particles, state.levels, state.leaf_work);
+    start_nonlocal_cracks(options, prepared, state, derived.nonlocal);
 
     tick(state.clock);
 }

@@ -6,6 +6,7 @@
 #include "solver/prepared.h"
 #include "solver/state.h"
 #include "solver/surface.h"
+#include "transfer/nonlocal_onset.h"
 
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Derived
     LigamentMap ligaments;
     SurfaceForces surface;
     std::vector<Vec3> external; // [leaf][729] N, scratch: forces of this step that are not internal
+    transfer::NonlocalTable nonlocal;
 };
 
 /// Particles, leaves and sums at time 0.
@@ -42,6 +44,7 @@ void resume(const Problem& problem, const Prepared& prepared, State& state, Deri
 /// | grid::prolong_motion          | velocity of masters                 | velocity of slaves               |
 /// | grid::fill_motion_halos       | velocity of owners                  | velocity of halos                |
 /// | transfer::advance_and_scatter | node velocity, particles            | particles; sums of the next step |
+/// | start_nonlocal_cracks         | stress, node velocity               | cracks that start                |
 /// | follow_particles              | strays                              | order of particles, leaves       |
 void step(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
 

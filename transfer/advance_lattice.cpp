@@ -149,7 +149,7 @@ template <class T>
 template <class T>
 [[gnu::noinline]] void advance_block(const Context& context, const CellBlock<T>& block, const grid::NodeMotion* motion,
                                      BlockState<T>& state, particles::Particles& particles, grid::NodeForce* force,
-                                     LeafWork& leaf_work, std::vector<Onset>& onset)
+                                     LeafWork& leaf_work, std::vector<Onset>& onset, std::vector<int>& near_cells)
 {
     using V = BlockLanes<T>;
     Work<T> work;
@@ -190,20 +190,24 @@ template <class T>
     scatter_force(context, block, state, work, force);
 
     if (context.laws.any_decohesion && core::any(near))
-        for (int i = 0; i < block.count; ++i)
-            if (near[i]) test_onset(context, block, state, work, i, particles, onset);
+        for (int i = 0; i < block.count; ++i) {
+            if (!near[i]) continue;
+            test_onset(context, block, state, work, i, particles, onset);
+            if (context.laws.nonlocal_radius > 0) near_cells.push_back(block.cell[static_cast<std::size_t>(i)]);
+        }
 }
 
 template <class T>
 void advance_leaf(const Context& context, BlockTable<T>& table, particles::Particles& particles, grid::Levels& levels,
-                  LeafWork& leaf_work, std::vector<Onset>& onset)
+                  LeafWork& leaf_work, std::vector<Onset>& onset, std::vector<int>& near_cells)
 {
+    near_cells.clear();
     grid::NodeForce* force = levels.forces(context.leaf);
     grid::for_nodes(levels.used[context.leaf], grid::leaf_side, [&](int node) { force[node].force = {}; });
     for (std::uint32_t b = table.start[context.leaf]; b < table.start[context.leaf + 1]; ++b) {
         prefetch(&table.state[b] + 1); // beyond the last one nothing is read
         advance_block(context, table.block[b], levels.motions(context.leaf), table.state[b], particles, force,
-                      leaf_work, onset);
+                      leaf_work, onset, near_cells);
     }
 }
 
@@ -230,7 +234,7 @@ void advance_lattice(const PassOptions& options, const LawTable& laws, Lattice& 
         [&](auto& table) {
             core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
                 const Context context{options, laws, lattice, Real(1) / levels.spacing(levels.leaves[n].level), n};
-                advance_leaf(context, table, particles, levels, leaf_work[n], lattice.onset[n]);
+                advance_leaf(context, table, particles, levels, leaf_work[n], lattice.onset[n], lattice.near[n]);
             });
         },
         lattice.blocks);

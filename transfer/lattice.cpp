@@ -182,6 +182,7 @@ bool enter_lattice(Precision precision, const grid::Levels& levels, particles::P
         lattice.material.push_back(only_material(particles, levels.cell_start[n * grid::leaf_cells],
                                                  levels.cell_start[(n + 1) * grid::leaf_cells]));
     lattice.onset.assign(leaves, {});
+    lattice.near.assign(leaves, {});
     if (precision == Precision::mixed)
         lattice.blocks = BlockTable<float>{};
     else

@@ -39,6 +39,7 @@ struct Lattice
     std::vector<std::uint8_t> cracked;     // [leaf][512] 1: some particle of the cell has decohesion state
     std::vector<std::int32_t> material;    // [leaf] index of the only material, or `mixed`
     std::vector<std::vector<Onset>> onset; // [leaf] scratch of a step
+    std::vector<std::vector<int>> near;    // [leaf] cells the step did not clear of onset; kept for nonlocal laws only
     std::variant<BlockTable<Real>, BlockTable<float>> blocks; // float: precision `mixed`
 
     bool in_use() const { return !material.empty(); }

@@ -1,5 +1,7 @@
 #include "transfer/law_table.h"
 
+#include <algorithm>
+
 namespace transfer
 {
 LawTable law_table(const std::vector<material::Material>& materials)
@@ -20,6 +22,9 @@ LawTable law_table(const std::vector<material::Material>& materials)
             c.tensile_onset = m.decohesion->s_max;
             c.shear_onset = m.decohesion->tau_max;
             table.any_decohesion = true;
+            const Real radius = m.decohesion->nonlocal_radius;
+            if (radius > 0)
+                table.nonlocal_radius = table.nonlocal_radius > 0 ? std::min(table.nonlocal_radius, radius) : radius;
         }
         c.averaged_dilatation = m.cell_averaged_dilatation;
         table.constants.push_back(c);

@@ -33,6 +33,7 @@ struct LawTable
     std::vector<material::Material> materials;
     std::vector<material::SeparationLaw> separation; // [m], default where a material has no decohesion
     bool any_decohesion = false;
+    Real nonlocal_radius = 0; // mm, smallest of the materials that test their onset over a ball; 0: none does
 };
 
 LawTable law_table(const std::vector<material::Material>& materials);

@@ -80,7 +80,7 @@ void start_cracks(const PassOptions& options, const LawTable& laws, const partic
     const core::Sym<Real> mean = cell_mean(particles, begin, end, stresses);
     for (std::size_t p = begin; p < end; ++p) {
         const material::Material& material = laws.materials[particles.material[p]];
-        if (particles.crack[p] >= 0 || !material.decohesion) continue;
+        if (particles.crack[p] >= 0 || !material.decohesion || material.decohesion->nonlocal_radius > 0) continue;
         const core::Sym<Real>& own = stresses[p - begin];
         const core::Sym<Real>& test = material.decohesion->smoothed_onset ? mean : own;
         // The lanes were flagged for their own stresses, and one flags the whole cell.

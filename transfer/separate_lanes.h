@@ -31,7 +31,8 @@ struct SeparatingChunk
 /// @return decohesion work of the chunk [mJ]
 Real separate_lanes(const SeparatingChunk& chunk, particles::Particles& particles, Lanes& plastic_work);
 
-/// Test the intact particles [begin, end) of a cell for the onset of decohesion; append those that start.
+/// Test the intact particles [begin, end) of a cell for the onset of decohesion; append those that start. Materials
+/// with a nonlocal radius are left to transfer/nonlocal_onset.h.
 /// @param spacing    mm, of the cell
 /// @param stresses   MPa, of each particle, [end - begin]
 /// @param gradients  1, L dt of each particle, [end - begin]

@@ -31,6 +31,7 @@ app::Report sample_report()
     report.problem.symmetry = {{2, 30}};
     report.problem.zones.push_back({"path A-D", {}, 1, 0.5});
     report.resolved = "units = \"mm-g-ms\"\n";
+    report.events = {{"step", "ligament", "event"}, {"400", "A-D", "first"}};
     const solver::State state = sample::state();
     report.history = state.history;
     io::ParticleFrame& frame = report.frame.emplace();
@@ -53,6 +54,7 @@ TEST(ReportPage, HoldsCurveMeasuresPicturesZonesAndVersions)
     EXPECT_PRED2(contains, page, "<td>crack_path</td><td>A-D-C-E</td><td>A-C-E</td>");
     EXPECT_PRED2(contains, page, ">c1</text>");       // the point of the reference
     EXPECT_PRED2(contains, page, "experiment, peak"); // its line
+    EXPECT_PRED2(contains, page, "<tr><td>400</td><td>A-D</td><td>first</td></tr>");
     EXPECT_PRED2(contains, page, "full specimen: 2 times");
     EXPECT_PRED2(contains, page, "damage at t =");
     EXPECT_PRED2(contains, page, "do not hold eq_plastic_strain");

@@ -25,9 +25,9 @@ TEST_F(CaseError, misspelt_key)
               "case.toml:12:1: error: unknown key 'tau_mx' in [material.steel.decohesion]\n"
               "   12 | tau_mx = \"820 MPa\"\n"
               "      | ^~~~~~  did you mean 'tau_max'?\n"
-              "   keys here: G_I, G_II, band_factor, c_m, c_m_mixed, c_m_opening, c_m_shear, drop_transits, "
-              "energy_floor_factor, friction, mode, onset_strength, preset, q, s_max, smoothed_onset, snap_back, "
-              "tau_max, u0     (cleave keys material.decohesion)\n"
+              "   keys here: G_I, G_II, band_factor, c_m, c_m_mixed, c_m_opening, c_m_shear, crack_exclusion, "
+              "drop_transits, energy_floor_factor, friction, mode, nonlocal_radius, onset_strength, preset, q, s_max, "
+              "smoothed_onset, snap_back, tau_max, u0     (cleave keys material.decohesion)\n"
               "2 errors");
 }
 

@@ -68,6 +68,8 @@ void expect_equal_materials(const material::Material& a, const material::Materia
     EXPECT_EQ(x.drop_transits, y.drop_transits);
     EXPECT_EQ(x.onset_strength, y.onset_strength);
     EXPECT_EQ(x.smoothed_onset, y.smoothed_onset);
+    EXPECT_EQ(x.nonlocal_radius, y.nonlocal_radius);
+    EXPECT_EQ(x.crack_exclusion, y.crack_exclusion);
     EXPECT_EQ(x.friction, y.friction);
 }
 
@@ -213,6 +215,8 @@ c_m = 0.7
 friction = 0.2
 drop_transits = 5
 smoothed_onset = false
+nonlocal_radius = "0.25 mm"
+crack_exclusion = 0.1
 [material.rubber]
 density = 1e-3
 youngs_modulus = 10

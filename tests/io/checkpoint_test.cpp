@@ -58,6 +58,7 @@ void expect_same(const solver::State& a, const solver::State& b)
     EXPECT_EQ(bits(std::vector{a.clock}), bits(std::vector{b.clock}));
     EXPECT_EQ(bits(a.loads), bits(b.loads));
     EXPECT_EQ(bits(a.ligaments), bits(b.ligaments));
+    EXPECT_EQ(bits(a.events), bits(b.events));
     EXPECT_EQ(bits(a.leaf_work), bits(b.leaf_work));
     EXPECT_EQ(bits(std::vector{a.folded_work}), bits(std::vector{b.folded_work}));
     EXPECT_EQ(a.initial_energy, b.initial_energy);

@@ -167,6 +167,6 @@ TEST(PointFile, has_a_value_for_every_column)
     EXPECT_EQ(from, text.size());
     EXPECT_EQ(commas[1], commas[0]);
     EXPECT_EQ(commas[2], commas[0]);
-    EXPECT_TRUE(text.ends_with(",0,1,0,5,2,0,4,2\n")) << text; // normal, tractions, works
+    EXPECT_TRUE(text.ends_with(",0,1,0,5,2,0,4,2,1\n")) << text; // normal, tractions, works, acoustic ratio
 }
 } // namespace

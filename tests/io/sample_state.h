@@ -94,6 +94,8 @@ inline solver::State state()
                                seed / 11, Vec3(6, seed, 8), seed / 13, 17 * seed});
     }
     state.ligaments.push_back({0.1, 2000, 0.3, 0.4, 5000, 0.6, -1, 0.1, 0.2, 1.0 / 3});
+    state.events = {{100, 0.1, 2000, 0.3, 0, 0, solver::EventKind::onset},
+                    {400, 0.4, 5000, 0.6, 1.0 / 3, 0, solver::EventKind::first}};
     state.leaf_work = {{1.0 / 3, 0.25}, {7, 1.0 / 9}};
     state.folded_work = {0.125, 1.0 / 6};
     state.initial_energy = 1.0 / 7;

@@ -147,6 +147,7 @@ TEST_F(Program, a_run_in_three_parts_leaves_the_files_of_one)
     const test::Outcome third = test::run(tiny_preview(below("parts"), with({"--threads", "1", "--resume"})));
     ASSERT_EQ(third.exit_code, 0) << third.output;
     EXPECT_EQ(test::contents(below("one") / "history.csv"), test::contents(below("parts") / "history.csv"));
+    EXPECT_EQ(test::contents(below("one") / "events.csv"), test::contents(below("parts") / "events.csv"));
     int compared = 0;
     for (const std::string& file : test::files_below(below("one"))) {
         if (file.rfind("particles/", 0) != 0 && file.rfind("grid/", 0) != 0) continue;

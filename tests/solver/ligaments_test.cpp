@@ -1,6 +1,7 @@
 /// solver/ligaments.h and measures.h on synthetic plates: two holes and an edge, cracks put in by hand.
 #include "solver/ligaments.h"
 
+#include "solver/ligament_events.h"
 #include "solver/measures.h"
 
 #include <gtest/gtest.h>
@@ -128,6 +129,46 @@ TEST(Ligaments, events_come_one_after_the_other_and_are_noted_once)
     update_ligaments(map, particles, {5, 80, 0.5}, states);
     EXPECT_EQ(states[0].through_time, 4);
     EXPECT_LT(states[1].onset_time, 0); // the other ligament saw nothing
+}
+
+// Every event once, a front whenever it passes a multiple of 5 %, whatever happens within one look.
+TEST(Ligaments, the_log_has_every_event_once)
+{
+    const Problem problem = plate();
+    const LigamentMap map = map_of(problem, particles_of(problem));
+    particles::Particles particles = particles_of(problem);
+    std::vector<LigamentState> states;
+    std::vector<LigamentEvent> events;
+    const auto look = [&](std::int64_t step) {
+        const Observation now{0.1 * static_cast<Real>(step), 100 - static_cast<Real>(step), 0.01};
+        const std::vector<LigamentState> before = states;
+        update_ligaments(map, particles, now, states);
+        log_events(before, states, step, now, events);
+    };
+    look(1);
+    EXPECT_TRUE(events.empty());
+    crack(particles, 0.5, strip(1.5, 2));
+    look(2);
+    look(3);
+    crack(particles, 1, strip(1.5, 2)); // 2 of 16 stations: 0.125
+    look(4);
+    crack(particles, 1, strip(1.5, 2.25)); // 0.1875
+    look(5);
+    crack(particles, 1, strip(2.25, 2.3)); // no further column
+    look(6);
+    crack(particles, 1, strip(1.5, 4.5));
+    crack(particles, 1, strip(5.5, 8)); // the other one at once
+    look(7);
+    look(8);
+    std::string text;
+    for (const LigamentEvent& e : events)
+        text +=
+            std::to_string(e.step) + " " + std::to_string(e.ligament) + " " + std::string(event_name(e.kind)) + "; ";
+    EXPECT_EQ(text, "2 0 onset; 4 0 first; 4 0 front; 5 0 front; 7 0 front; 7 0 through; "
+                    "7 1 onset; 7 1 first; 7 1 front; 7 1 through; ");
+    EXPECT_EQ(events[1].force, 96);
+    EXPECT_EQ(events[1].cod, 0.01);
+    EXPECT_NEAR(events[1].front, 0.125, 1e-12);
 }
 
 TEST(Ligaments, one_intact_tenth_is_allowed_more_is_not)

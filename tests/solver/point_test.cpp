@@ -241,6 +241,21 @@ testing::AssertionResult contains(const std::string& text, const std::string& pa
     return testing::AssertionFailure() << "expected\n" << part << "\nin\n" << text;
 }
 
+// H / (3 mu + H) in shear whatever the plastic strain: bifurcation comes with perfect plasticity, not before.
+TEST(Point, hardening_keeps_the_acoustic_tensor_regular)
+{
+    const Real shear_three = 3 * steel().elastic.shear_modulus();
+    for (const Real tangent : {1150.0, 0.0}) {
+        const Real hardening = material::VonMises{1100, tangent}.plastic_modulus(195e3);
+        const PointSegment shear{400, Strains{0, 0, 0, 0.3, 0, 0}};
+        for (const PointState& state : followed(plastic_steel(tangent), {shear}))
+            EXPECT_NEAR(state.acoustic_ratio, state.eq_plastic_strain > 0 ? hardening / (shear_three + hardening) : 1,
+                        1e-9);
+        const PointState pulled = followed(plastic_steel(tangent), {uniaxial_strain(400, 0.3)}).back();
+        EXPECT_GT(pulled.acoustic_ratio, 0.2);
+    }
+}
+
 TEST(Point, perfect_plasticity_has_no_stress_beyond_yield)
 {
     const std::string text = failure(plastic_steel(0), {{12, {}, core::Sym<Real>{{1200, 0, 0, 0, 0, 0}}}});

@@ -15,10 +15,13 @@ using support::Job;
 namespace
 {
 /// A bar with a hole, on cells of 0.25 mm, that will spin about a pin and stretch until it breaks.
-solver::Problem torn_bar(const solver::Numerics& numerics)
+/// @param radius  mm, of the nonlocal onset
+solver::Problem torn_bar(const solver::Numerics& numerics, Real radius = 0)
 {
     const solver::Load pin = support::pin("pin", {1, 4, 0}, 0.4, {0.0, 0.0, {}}, 0);
-    solver::Problem problem = support::bar(support::breakable(), 0, 0);
+    material::Material metal = support::breakable();
+    metal.decohesion->nonlocal_radius = metal.decohesion->crack_exclusion = radius;
+    solver::Problem problem = support::bar(metal, 0, 0);
     problem.bodies[0].shape = geometry::subtract(geometry::box({0, 0, 0}, {2, 8, 1}), {pin.region});
     problem.loads = {pin};
     problem.grid.cell = 0.25;
@@ -27,9 +30,9 @@ solver::Problem torn_bar(const solver::Numerics& numerics)
 }
 
 /// Two levels: fine around the hole.
-solver::Problem refined_torn_bar(const solver::Numerics& numerics)
+solver::Problem refined_torn_bar(const solver::Numerics& numerics, Real radius = 0)
 {
-    solver::Problem problem = torn_bar(numerics);
+    solver::Problem problem = torn_bar(numerics, radius);
     problem.grid.cell = 0.5;
     problem.grid.levels = 2;
     problem.zones = {support::zone(geometry::box({0.2, 3, -1}, {3, 5, 2}), 1)};
@@ -57,6 +60,7 @@ struct Scheme
 {
     const char* name;
     solver::Numerics numerics;
+    Real nonlocal_radius = 0; // mm
 };
 
 const Scheme schemes[] = {
@@ -66,6 +70,11 @@ const Scheme schemes[] = {
     {"total", support::numerics(solver::Formulation::total)},
     {"nodal", support::nodal_numerics(solver::Precision::f64)},
     {"nodal mixed", support::nodal_numerics(solver::Precision::mixed)},
+    {"updated, nonlocal", support::numerics(solver::Formulation::updated), 0.4},
+    {"updated gimp, nonlocal", support::gimp_numerics(solver::Transfer::flip), 0.4},
+    {"total, nonlocal", support::numerics(solver::Formulation::total), 0.4},
+    {"nodal, nonlocal", support::nodal_numerics(solver::Precision::f64), 0.4},
+    {"nodal mixed, nonlocal", support::nodal_numerics(solver::Precision::mixed), 0.4},
 };
 
 /// Everything two runs have in common, in stored order.
@@ -133,13 +142,13 @@ TEST(SameBits, for_any_number_of_levels_that_carry_the_same_cells)
 {
     for (const Scheme& scheme : schemes) {
         SCOPED_TRACE(scheme.name);
-        Job single = torn(torn_bar(scheme.numerics));
+        Job single = torn(torn_bar(scheme.numerics, scheme.nonlocal_radius));
         const std::vector<std::uint32_t> first_id = single.state.particles.id;
         const particles::Column first_rest_x = single.state.particles.rest_position[0];
         support::advance(120, single);
         EXPECT_GT(single.state.particles.cracks.size(), 0U);
         for (const int levels : {2, 3}) {
-            solver::Problem problem = torn_bar(scheme.numerics);
+            solver::Problem problem = torn_bar(scheme.numerics, scheme.nonlocal_radius);
             problem.grid.cell *= 1 << (levels - 1);
             problem.grid.levels = levels;
             problem.zones = {support::zone(support::everywhere(), levels - 1)};
@@ -158,7 +167,7 @@ TEST(SameBits, for_any_number_of_threads)
 {
     for (const Scheme& scheme : schemes) {
         SCOPED_TRACE(scheme.name);
-        const solver::Problem problem = refined_torn_bar(scheme.numerics);
+        const solver::Problem problem = refined_torn_bar(scheme.numerics, scheme.nonlocal_radius);
         Job one = run_on(1, problem, 200);
         EXPECT_GT(one.state.particles.cracks.size(), 0U);
         for (const int threads : {2, 4}) {
@@ -174,7 +183,7 @@ TEST(SameBits, for_any_number_of_threads)
 TEST(SameBits, after_a_restart_at_any_step)
 {
     for (const Scheme& scheme : schemes) {
-        Job run = torn(refined_torn_bar(scheme.numerics));
+        Job run = torn(refined_torn_bar(scheme.numerics, scheme.nonlocal_radius));
         std::size_t cracks_before = 0, cracks_after = 0; // restarts that find cracks, and that see some start
         for (int n = 0; n < 20; ++n) {
             support::advance(n < 6 ? 1 : 7, run);
@@ -198,7 +207,7 @@ TEST(SameBits, sums_after_a_step_are_those_of_a_fresh_scatter)
 {
     for (const Scheme& scheme : schemes) {
         if (scheme.numerics.transfer == solver::Transfer::nodal) continue; // nothing is mapped after the first step
-        Job run = torn(refined_torn_bar(scheme.numerics));
+        Job run = torn(refined_torn_bar(scheme.numerics, scheme.nonlocal_radius));
         for (int n = 0; n < 150; ++n) {
             support::advance(1, run);
             grid::Levels again = run.state.levels;

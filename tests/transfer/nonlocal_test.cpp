@@ -1,0 +1,172 @@
+/// The ball of the nonlocal onset (transfer/ball.h) and the rule that keeps cracks apart.
+#include "transfer/nonlocal_onset.h"
+
+#include "grid/topology.h"
+#include "tests/support/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using support::Scene;
+
+namespace
+{
+/// Fill every component with a function of the place at rest: `value(component, place)`.
+template <class Value>
+void put_stress(const Value& value, Scene& scene)
+{
+    for (std::size_t p = 0; p < scene.particles.size(); ++p)
+        for (std::size_t n = 0; n < 6; ++n)
+            scene.particles.stress[n][p] = value(n, support::vector_of(scene.particles.rest_position, p));
+}
+
+core::Sym<Real> mean_of(const Scene& scene, const transfer::Ball& ball)
+{
+    return transfer::mean_stress(ball, [&](std::uint32_t p) {
+        core::Sym<Real> s{};
+        for (std::size_t n = 0; n < 6; ++n) s.s[n] = scene.particles.stress[n][p];
+        return s;
+    });
+}
+
+/// Cells of 0.5 mm about the origin of the lattice: those of a block of side 6 that `keep` takes.
+template <class Keep>
+Scene block(const std::vector<grid::WallPlane>& walls, const Keep& keep)
+{
+    support::Topology topology = support::topology_of("block", 1, 3, [](const grid::CellKey&) { return false; });
+    std::erase_if(topology.cells, [&](const grid::CellKey& key) { return !keep(key.cell); });
+    transfer::PassOptions options;
+    options.walls = walls;
+    return support::scene_of(topology, options, {support::soft_elastic()}, support::Layout::regular);
+}
+
+bool everything(const Index3&)
+{
+    return true;
+}
+
+transfer::Ball ball_at(const Scene& scene, int level, const Index3& cell, Real radius, std::uint8_t material = 0)
+{
+    const std::int64_t slot = grid::active_slot(scene.levels, level, cell);
+    return transfer::ball_about(scene.options, scene.levels, scene.particles,
+                                transfer::occupied_cell(scene.levels, static_cast<std::size_t>(slot)), material,
+                                radius);
+}
+
+Real linear(std::size_t component, const Vec3& x)
+{
+    return static_cast<Real>(component + 1) + 2 * x[0] - x[1] + 0.5 * x[2];
+}
+} // namespace
+
+// The mean of a linear field is its value at the centre; that of |x - c|^2 is R^2 / 3 with the weight (1 - r^2/R^2)^2.
+TEST(Nonlocal, mean_is_that_of_the_weight)
+{
+    Scene scene = block({}, everything);
+    const Vec3 centre = scene.levels.origin + Vec3(0.25, 0.25, -0.25);
+    put_stress([&](std::size_t n, const Vec3& x) { return linear(n, x - centre); }, scene);
+    const transfer::Ball ball = ball_at(scene, 0, {0, 0, -1}, 1.1);
+    for (std::size_t n = 0; n < 6; ++n) EXPECT_NEAR(mean_of(scene, ball).s[n], static_cast<Real>(n + 1), 1e-12);
+    put_stress([&](std::size_t, const Vec3& x) { return (x - centre).squaredNorm(); }, scene);
+    EXPECT_NEAR(mean_of(scene, ball).s[0] / (1.1 * 1.1 / 3), 1, 0.01);
+}
+
+TEST(Nonlocal, levels_do_not_matter)
+{
+    for (const std::size_t topology : {1U, 2U, 3U}) {
+        Scene scene =
+            support::scene_of(support::topologies()[topology], {}, {support::soft_elastic()}, support::Layout::regular);
+        int tested = 0;
+        for (const grid::CellKey& key : support::topologies()[topology].cells) {
+            const Real spacing = scene.levels.spacing(key.level);
+            const Vec3 local = spacing * (key.cell.cast<Real>() + Vec3::Constant(0.5));
+            if (local.cwiseAbs().maxCoeff() > 0.5) continue; // the ball stays inside
+            const Vec3 centre = scene.levels.origin + local;
+            const transfer::Ball ball = ball_at(scene, key.level, key.cell, 0.9);
+            put_stress([&](std::size_t n, const Vec3& x) { return linear(n, x - centre); }, scene);
+            EXPECT_NEAR(mean_of(scene, ball).s[0], 1, 0.04); // 2 % of what the field changes over R
+            put_stress([&](std::size_t, const Vec3& x) { return (x - centre).squaredNorm(); }, scene);
+            EXPECT_NEAR(mean_of(scene, ball).s[0] / (0.9 * 0.9 / 3), 1, 0.05);
+            ++tested;
+        }
+        EXPECT_GT(tested, 20);
+    }
+}
+
+TEST(Nonlocal, a_symmetry_plane_cuts_nothing_off)
+{
+    Scene whole = block({}, everything);
+    Scene half = block({{2, 0}}, [](const Index3& cell) { return cell[2] >= 0; });
+    Scene quarter = block({{2, 0}, {0, 1}}, [](const Index3& cell) { return cell[2] >= 0 && cell[0] < 1; });
+    // Symmetric about z = 0 and x = 0.5: stresses that change sign in a mirror are odd there.
+    const auto field = [](const Scene& scene) {
+        return [origin = scene.levels.origin](std::size_t n, const Vec3& at) {
+            const Vec3 x = at - origin - Vec3(0.5, 0, 0);
+            const Real even = 1 + x[0] * x[0] + x[2] * x[2] + x[1];
+            const Real odd[6] = {1, 1, 1, x[0], x[2], x[2] * x[0]};
+            return even * odd[n];
+        };
+    };
+    put_stress(field(whole), whole);
+    put_stress(field(half), half);
+    put_stress(field(quarter), quarter);
+    const core::Sym<Real> expected = mean_of(whole, ball_at(whole, 0, {0, 0, 0}, 0.9));
+    const core::Sym<Real> in_half = mean_of(half, ball_at(half, 0, {0, 0, 0}, 0.9));
+    const core::Sym<Real> in_quarter = mean_of(quarter, ball_at(quarter, 0, {0, 0, 0}, 0.9));
+    for (std::size_t n = 0; n < 6; ++n) {
+        EXPECT_GT(std::abs(expected.s[n]), 0.01);
+        EXPECT_NEAR(in_half.s[n], expected.s[n], 1e-12);
+        EXPECT_NEAR(in_quarter.s[n], expected.s[n], 1e-12);
+    }
+}
+
+// A slab one cell thick between two symmetry planes is plane strain: mirrors see each other.
+TEST(Nonlocal, a_slab_between_two_symmetry_planes_has_no_end)
+{
+    Scene whole = block({}, everything);
+    Scene slab = block({{2, 0}, {2, 1}}, [](const Index3& cell) { return cell[2] == 0; });
+    for (Scene* scene : {&whole, &slab})
+        put_stress([&](std::size_t n, const Vec3& x) { return n > 3 ? 0 : linear(n, {x[0], x[1], 0}); }, *scene);
+    const transfer::Ball all = ball_at(whole, 0, {-1, 0, 0}, 1.2), thin = ball_at(slab, 0, {-1, 0, 0}, 1.2);
+    EXPECT_EQ(all.particle.size(), thin.particle.size());
+    for (std::size_t n = 0; n < 6; ++n) EXPECT_NEAR(mean_of(slab, thin).s[n], mean_of(whole, all).s[n], 1e-12);
+}
+
+TEST(Nonlocal, other_materials_do_not_count)
+{
+    Scene scene = block({}, everything);
+    put_stress([](std::size_t, const Vec3&) { return 1; }, scene);
+    for (std::size_t p = 0; p < scene.particles.size(); ++p) {
+        if (scene.particles.rest_position[0][p] < scene.levels.origin[0]) continue;
+        scene.particles.material[p] = 1;
+        scene.particles.stress[0][p] = 100;
+    }
+    EXPECT_NEAR(mean_of(scene, ball_at(scene, 0, {-1, 0, 0}, 0.9, 0)).s[0], 1, 1e-12);
+    EXPECT_NEAR(mean_of(scene, ball_at(scene, 0, {0, 0, 0}, 0.9, 1)).s[0], 100, 1e-10);
+}
+
+TEST(Nonlocal, a_ball_smaller_than_the_distance_of_particles_is_the_cell)
+{
+    Scene scene = block({}, everything);
+    const transfer::Ball ball = ball_at(scene, 0, {0, 0, 0}, 0.01);
+    EXPECT_EQ(ball.particle.size(), 8U);
+    EXPECT_NEAR(ball.weight[3], 0.125, 1e-15);
+}
+
+// One layer of cells: planes beside a crack are forbidden, those that continue or cross it are not. Cells of 1 mm.
+TEST(Nonlocal, cracks_beside_a_crack_are_excluded)
+{
+    const Vec3 y(0, 1, 0), tilted = Vec3(-1, 1, 0).normalized(), x(1, 0, 0);
+    const Real diagonal = std::sqrt(2);
+    EXPECT_TRUE(transfer::excluded({0, 1, 0}, y, y, 1, 2.5));
+    EXPECT_TRUE(transfer::excluded({0, -2, 0}, y, y, 1, 2.5));
+    EXPECT_FALSE(transfer::excluded({0, 3, 0}, y, y, 1, 2.5)); // far enough
+    EXPECT_FALSE(transfer::excluded({1, 0, 0}, y, y, 1, 2.5)); // straight on
+    EXPECT_FALSE(transfer::excluded({1, 1, 0}, y, y, 1, 2.5)); // kinks
+    EXPECT_FALSE(transfer::excluded({0, 1, 0}, y, x, 1, 2.5)); // meets it
+    EXPECT_FALSE(transfer::excluded({1, 1, 0}, tilted, tilted, diagonal, 2.5));
+    EXPECT_FALSE(transfer::excluded({1, 0, 0}, tilted, tilted, diagonal, 2.5)); // the stairs of an inclined layer
+    EXPECT_TRUE(transfer::excluded({1, -1, 0}, tilted, tilted, diagonal, 2.5));
+    EXPECT_FALSE(transfer::excluded({0, 1, 0}, y, y, 1, 0)); // switched off
+}

@@ -1,0 +1,139 @@
+#include "transfer/ball.h"
+
+#include "grid/topology.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace transfer
+{
+namespace
+{
+/// An image of a coordinate in the mirrors normal to one axis: x -> sign x + offset.
+struct Image
+{
+    Real sign = 1;
+    Real offset = 0; // mm
+};
+
+/// Images of `x` along one axis, itself first, that a ball of `radius` sees between (or beyond) the planes.
+std::vector<Image> images_of(Real x, Real radius, const std::vector<Real>& planes)
+{
+    std::vector<Image> images{{1, 0}};
+    if (planes.empty()) return images;
+    const auto ends = std::minmax_element(planes.begin(), planes.end());
+    const auto within_reach = [&](Real at) { return at > *ends.first - radius && at < *ends.second + radius; };
+    for (std::size_t n = 0; n < images.size(); ++n)
+        for (const Real plane : planes) {
+            const Image seen{-images[n].sign, 2 * plane - images[n].offset};
+            const Real at = seen.sign * x + seen.offset;
+            const bool known = std::any_of(images.begin(), images.end(), [&](const Image& other) {
+                return std::abs(other.sign * x + other.offset - at) < 1e-9 * radius;
+            });
+            if (!known && within_reach(at)) images.push_back(seen);
+        }
+    return images;
+}
+
+std::vector<Real> planes_of(const PassOptions& options, const grid::Levels& levels, int axis)
+{
+    std::vector<Real> planes;
+    for (const grid::WallPlane& wall : options.walls)
+        if (wall.axis == axis) planes.push_back(levels.origin[axis] + wall.node0 * levels.spacing0);
+    return planes;
+}
+
+/// Add what the ball about `centre`, a place in the mirrors `turned`, holds; weights not yet normalised.
+void collect(const PassOptions& options, const grid::Levels& levels, const particles::Particles& particles,
+             const Vec3& centre, std::uint8_t turned, std::uint8_t material, Real radius, Ball& ball)
+{
+    const bool total = options.formulation == Formulation::total;
+    const auto& position = total ? particles.rest_position : particles.position;
+    // In the updated formulation a particle may be up to a cell away from the one that stores it.
+    for (const OccupiedCell& cell : cells_near(levels, centre, radius, total ? 0 : 1))
+        for (std::uint32_t p = levels.cell_start[cell.slot]; p < levels.cell_start[cell.slot + 1]; ++p) {
+            if (particles.material[p] != material) continue;
+            Real square = 0;
+            for (std::size_t a = 0; a < 3; ++a) {
+                const Real distance = position[a][p] - centre[static_cast<Eigen::Index>(a)];
+                square += distance * distance;
+            }
+            const Real left = 1 - square / (radius * radius);
+            if (left <= 0) continue;
+            ball.particle.push_back(p);
+            ball.turned.push_back(turned);
+            ball.weight.push_back(particles.rest_volume[p] * left * left);
+        }
+}
+
+void take_cell(const grid::Levels& levels, const particles::Particles& particles, std::size_t slot,
+               std::uint8_t material, Ball& ball)
+{
+    for (std::uint32_t p = levels.cell_start[slot]; p < levels.cell_start[slot + 1]; ++p) {
+        if (particles.material[p] != material) continue;
+        ball.particle.push_back(p);
+        ball.turned.push_back(0);
+        ball.weight.push_back(particles.rest_volume[p]);
+    }
+}
+} // namespace
+
+OccupiedCell occupied_cell(const grid::Levels& levels, std::size_t slot)
+{
+    const grid::Leaf& leaf = levels.leaves[slot / grid::leaf_cells];
+    const int c = static_cast<int>(slot % grid::leaf_cells);
+    return {leaf.level, leaf.origin + Index3(c >> 6, c >> 3 & 7, c & 7), slot};
+}
+
+Vec3 centre_of(const grid::Levels& levels, const OccupiedCell& cell)
+{
+    return levels.origin + levels.spacing(cell.level) * (cell.index.cast<Real>() + Vec3::Constant(Real(0.5)));
+}
+
+std::vector<OccupiedCell> cells_near(const grid::Levels& levels, const Vec3& point, Real reach, int margin)
+{
+    std::vector<OccupiedCell> cells;
+    for (int level = 0; level < levels.count; ++level) {
+        const Real spacing = levels.spacing(level);
+        Index3 lower, upper;
+        for (int a = 0; a < 3; ++a) {
+            lower[a] = static_cast<int>(std::floor((point[a] - reach - levels.origin[a]) / spacing)) - margin;
+            upper[a] = static_cast<int>(std::floor((point[a] + reach - levels.origin[a]) / spacing)) + margin;
+        }
+        Index3 at;
+        for (at[0] = lower[0]; at[0] <= upper[0]; ++at[0])
+            for (at[1] = lower[1]; at[1] <= upper[1]; ++at[1])
+                for (at[2] = lower[2]; at[2] <= upper[2]; ++at[2]) {
+                    const std::int64_t slot = grid::active_slot(levels, level, at);
+                    if (slot < 0) continue;
+                    const auto place = static_cast<std::size_t>(slot);
+                    if (levels.cell_start[place] != levels.cell_start[place + 1]) cells.push_back({level, at, place});
+                }
+    }
+    return cells;
+}
+
+Ball ball_about(const PassOptions& options, const grid::Levels& levels, const particles::Particles& particles,
+                const OccupiedCell& cell, std::uint8_t material, Real radius)
+{
+    const Vec3 centre = centre_of(levels, cell);
+    std::array<std::vector<Image>, 3> images;
+    for (int a = 0; a < 3; ++a)
+        images[static_cast<std::size_t>(a)] = images_of(centre[a], radius, planes_of(options, levels, a));
+    Ball ball;
+    for (const Image& x : images[0])
+        for (const Image& y : images[1])
+            for (const Image& z : images[2]) {
+                const Vec3 seen(x.sign * centre[0] + x.offset, y.sign * centre[1] + y.offset,
+                                z.sign * centre[2] + z.offset);
+                const unsigned turned = (x.sign < 0 ? 1u : 0u) | (y.sign < 0 ? 2u : 0u) | (z.sign < 0 ? 4u : 0u);
+                collect(options, levels, particles, seen, static_cast<std::uint8_t>(turned), material, radius, ball);
+            }
+    if (ball.particle.empty()) take_cell(levels, particles, cell.slot, material, ball);
+    Real sum = 0;
+    for (const Real weight : ball.weight) sum += weight;
+    for (Real& weight : ball.weight) weight /= sum;
+    return ball;
+}
+} // namespace transfer

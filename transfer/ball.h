@@ -1,0 +1,67 @@
+/// A ball about a cell's centre and the particles in it: what the nonlocal onset averages over (methods.md D.6).
+///
+///   w_p = V_p (1 - |x_p - c|^2 / R^2)^2 / sum,   V_p rest volume, x_p where the formulation takes its weights
+///
+/// Only particles of one material count, so beyond a surface there is nothing and near it the mean is that of the part
+/// inside. A symmetry plane cuts nothing off: the part behind it is the mirror image, with the stress seen in the
+/// mirror. Levels do not matter: the cells of all levels that the ball touches are searched.
+#pragma once
+
+#include "core/tensor.h"
+#include "grid/levels.h"
+#include "particles/particles.h"
+#include "transfer/passes.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace transfer
+{
+/// Particles in a ball with their weights; a particle near a mirror may occur several times.
+struct Ball
+{
+    std::vector<std::uint32_t> particle;
+    std::vector<std::uint8_t> turned; // bit a: seen in a mirror normal to axis a
+    std::vector<Real> weight;         // 1, sum 1
+};
+
+/// A cell that holds particles.
+struct OccupiedCell
+{
+    int level = 0;
+    Index3 index = Index3::Zero(); // on its level
+    std::size_t slot = 0;          // leaf * 512 + cell
+};
+
+OccupiedCell occupied_cell(const grid::Levels& levels, std::size_t slot);
+
+/// Centre of a cell at rest [mm].
+Vec3 centre_of(const grid::Levels& levels, const OccupiedCell& cell);
+
+/// Occupied cells of all levels with a corner or more within `reach` of a point, in order of level and index, and
+/// `margin` cells beyond.
+std::vector<OccupiedCell> cells_near(const grid::Levels& levels, const Vec3& point, Real reach, int margin);
+
+/// The ball of `radius` about the centre of a cell, for particles of one material. If it holds none (a ball smaller
+/// than the distance of particles), that cell's own particles with equal weights per volume.
+/// @param levels  reads cell_start and topology
+Ball ball_about(const PassOptions& options, const grid::Levels& levels, const particles::Particles& particles,
+                const OccupiedCell& cell, std::uint8_t material, Real radius);
+
+/// Mean of `stress_at(particle)` over the ball [MPa].
+template <class StressAt>
+core::Sym<Real> mean_stress(const Ball& ball, const StressAt& stress_at)
+{
+    core::Sym<Real> mean{};
+    for (std::size_t n = 0; n < ball.particle.size(); ++n) {
+        const core::Sym<Real> seen = ball.weight[n] * stress_at(ball.particle[n]);
+        const unsigned turned = ball.turned[n];
+        const auto sign = [&](unsigned a, unsigned b) { return (turned >> a & 1u) == (turned >> b & 1u) ? 1.0 : -1.0; };
+        for (int i = 0; i < 3; ++i) mean[i] += seen[i];
+        mean[3] += sign(0, 1) * seen[3];
+        mean[4] += sign(1, 2) * seen[4];
+        mean[5] += sign(2, 0) * seen[5];
+    }
+    return mean;
+}
+} // namespace transfer
