@@ -74,21 +74,19 @@ void add_lower_halos(std::size_t leaf, Levels& levels)
     }
 }
 
-/// Forces of slaves to their masters, and what these change in the masters' motion.
+/// What the forces of slaves change in their masters' motion.
 void push_masters(Real dt, const LevelInterface& face, Levels& levels)
 {
     core::parallel_for(face.master.size(), [&](std::size_t m) {
         const auto leaf = static_cast<std::size_t>(face.master[m].leaf);
-        NodeForce& master = levels.forces(leaf)[face.master[m].node];
         NodeMotion& motion = levels.motions(leaf)[face.master[m].node];
-        const Real impulse = dt * master.per_mass;
+        const Real impulse = dt * levels.forces(leaf)[face.master[m].node].per_mass;
         for (std::int32_t e = face.column_start[m]; e < face.column_start[m + 1]; ++e) {
             const auto entry = static_cast<std::size_t>(e);
             const NodeAddress& at = face.slave[static_cast<std::size_t>(face.column_slave[entry])];
             const NodeForce& slave = levels.forces(static_cast<std::size_t>(at.leaf))[at.node];
             for (std::size_t a = 0; a < 3; ++a) {
                 const Real force = face.column_weight[entry] * slave.force[a];
-                master.force[a] += force;
                 motion.velocity[a] += impulse * force;
                 motion.change[a] += dt * impulse * force;
             }
@@ -121,12 +119,15 @@ void restore_masses(const std::vector<Real>& mass_cutoff, Levels& levels)
     std::vector<NodeSum>().swap(levels.sum);
 }
 
-void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, Real dt, Levels& levels)
+void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, const LevelSteps& steps, Levels& levels)
 {
     using Line = core::Pack<Real, 4>;
-    const Line falling(Line::Lanes{dt * gravity[0], dt * gravity[1], dt * gravity[2], 0});
     const Line axes(Line::Lanes{1, 1, 1, 0});
-    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+    const std::size_t first = levels.first_leaf(steps.first);
+    core::parallel_for(levels.leaves.size() - first, [&](std::size_t task) {
+        const std::size_t n = first + task;
+        const Real dt = steps.of(levels.leaves[n].level);
+        const Line falling(Line::Lanes{dt * gravity[0], dt * gravity[1], dt * gravity[2], 0});
         add_lower_halos(n, levels);
         const NodeForce* force = levels.forces(n);
         NodeMotion* motion = levels.motions(n);
@@ -134,14 +135,19 @@ void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, Rea
             // Fourth lanes: the spare places, which nobody reads, and 1 / m.
             const Real impulse = dt * force[i].per_mass;
             const Line fall(impulse == 0 ? Line(Real(0)) : falling);
+            const Line drift(impulse == 0 ? Real(0) : dt); // slaves keep where they were: prolong_displacement
             const Line velocity =
                 Line::load(motion[i].velocity.data()) + Line(impulse) * Line::load(force[i].force.data()) * axes + fall;
             velocity.store(motion[i].velocity.data());
-            (Line::load(motion[i].change.data()) + Line(dt) * velocity).store(motion[i].change.data());
+            (Line::load(motion[i].change.data()) + drift * velocity).store(motion[i].change.data());
         });
     });
-    for (std::size_t l = levels.interface.size(); l-- > 0;) push_masters(dt, levels.interface[l], levels);
-    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+    const int fine = std::max(1, steps.first); // finer side of the coarsest interface that is pushed
+    for (int l = levels.count - 1; l >= fine; --l)
+        push_masters(steps.of(l), levels.interface[static_cast<std::size_t>(l) - 1], levels);
+    const std::size_t pushed = levels.first_leaf(fine - 1);
+    core::parallel_for(levels.leaves.size() - pushed, [&](std::size_t task) {
+        const std::size_t n = pushed + task;
         fix_walls(walls, levels.leaves[n], levels.motions(n),
                   [](NodeMotion& m, std::size_t a) { m.velocity[a] = m.change[a] = 0; });
     });

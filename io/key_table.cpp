@@ -230,6 +230,8 @@ constexpr std::array keys{
         "usl|musl"},
     Key{"numerics", "pic_fraction", real, defaulted, "0", "part of PIC in the FLIP update", {}, share},
     Key{"numerics", "cfl", real, defaulted, "0.5", "dt = cfl * smallest cell / wave speed", {}, positive},
+    Key{"numerics", "subcycling", boolean, defaulted, "false",
+        "each level takes twice the step of the next finer one (transfer = nodal only, cfl at most 0.6)"},
     Key{"numerics",
         "mass_cutoff",
         real,

@@ -95,6 +95,13 @@ void check_loads(const Problem& problem, const grid::Levels& levels, const Deriv
                                                problem.loads[i].name));
     }
 }
+void find_fast_nodes(const Problem& problem, const grid::Levels& levels, Derived& derived)
+{
+    if (!problem.numerics.subcycling) return;
+    std::vector<grid::NodeAddress> held;
+    for (const LoadNodes& load : derived.load_nodes) held.insert(held.end(), load.node.begin(), load.node.end());
+    derived.fast_nodes = grid::find_fast_nodes(levels, held);
+}
 } // namespace
 
 State initialise(const Problem& problem, const Prepared& prepared, Derived& derived)
@@ -133,6 +140,7 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
     if (nodal(problem)) {
         start_nodal(prepared, state);
         keep_heavy_nodes(state.levels, derived.load_nodes);
+        find_fast_nodes(problem, state.levels, derived);
     }
     const Ledger start = audit(prepared, state);
     state.initial_energy = start.kinetic + start.elastic;
@@ -155,6 +163,7 @@ void resume(const Problem& problem, const Prepared& prepared, State& state, Deri
         state.levels.motion = std::move(motion);
         resume_nodal(prepared, state);
         keep_heavy_nodes(state.levels, derived.load_nodes);
+        find_fast_nodes(problem, state.levels, derived);
     } else {
         transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
     }

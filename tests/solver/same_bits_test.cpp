@@ -4,6 +4,7 @@
 #include "tests/solver/same_bits.h"
 
 #include "solver/audit.h"
+#include "solver/stable_time_step.h"
 #include "tests/support/runs.h"
 
 #include <gtest/gtest.h>
@@ -66,6 +67,8 @@ const Scheme schemes[] = {
     {"total", support::numerics(solver::Formulation::total)},
     {"nodal", support::nodal_numerics(solver::Precision::f64)},
     {"nodal mixed", support::nodal_numerics(solver::Precision::mixed)},
+    {"sub-cycled", support::subcycled_numerics(solver::Precision::f64)},
+    {"sub-cycled mixed", support::subcycled_numerics(solver::Precision::mixed)},
 };
 
 /// Everything two runs have in common, in stored order.
@@ -147,7 +150,7 @@ TEST(SameBits, for_any_number_of_levels_that_carry_the_same_cells)
             // Seeding numbers the particles parent cell by parent cell; the order inside a cell is by number.
             ASSERT_TRUE(test::same_bits(nested.state.particles.rest_position[0], first_rest_x));
             nested.state.particles.id = first_id;
-            support::advance(120, nested);
+            support::advance(120 / solver::substeps(problem), nested);
             EXPECT_EQ(single.state.clock.time, nested.state.clock.time);
             expect_same(single, nested);
         }
