@@ -5,6 +5,7 @@
 #include "particles/tensors.h"
 #include "transfer/cell_squeeze.h"
 #include "transfer/gimp_box.h"
+#include "transfer/lattice_squeeze.h"
 
 #include <fmt/format.h>
 
@@ -42,7 +43,7 @@ Real signal_speed(const Prepared& prepared, const State& state, std::size_t p)
 std::vector<Real> fastest_on_lattice(const Prepared& prepared, const State& state)
 {
     std::vector<transfer::LatticeSurvey> survey;
-    transfer::survey_lattice(prepared.laws, state.lattice, state.particles, state.levels, survey);
+    transfer::survey_squeeze(prepared.laws, state.lattice, state.particles, state.levels, survey);
     std::vector<Real> fastest(survey.size(), 0);
     for (std::size_t n = 0; n < survey.size(); ++n) {
         if (!std::isfinite(survey[n].squeeze)) not_finite(state, survey[n].worst);
