@@ -1,5 +1,6 @@
 #include "grid/nodal.h"
 
+#include "core/huge_pages.h"
 #include "core/parallel.h"
 #include "core/simd.h"
 #include "grid/halo.h"
@@ -97,6 +98,7 @@ void push_masters(Real dt, const LevelInterface& face, Levels& levels)
 
 void start_nodes(const std::vector<WallPlane>& walls, const std::vector<Real>& mass_cutoff, Levels& levels)
 {
+    core::reserve_huge_pages(levels.sum.size(), levels.force);
     levels.force.resize(levels.sum.size());
     for (std::size_t n = 0; n < levels.sum.size(); ++n) levels.force[n] = {levels.sum[n].force, 0};
     assemble_masses(mass_cutoff, levels);
