@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct Options
     int cells = 50;
     int steps = 15;
     std::vector<int> threads;
+    std::string transfer, precision; // only schemes with these names, if not empty
 };
 
 const std::vector<BenchCase>& schemes()
@@ -62,6 +64,12 @@ const char* name(solver::Precision p)
 const char* name(solver::Basis b)
 {
     return b == solver::Basis::gimp ? "gimp" : "trilinear";
+}
+
+bool wanted(const BenchCase& scheme, const Options& options)
+{
+    return (options.transfer.empty() || options.transfer == name(scheme.transfer)) &&
+           (options.precision.empty() || options.precision == name(scheme.precision));
 }
 
 BenchResult measured(const BenchCase& scheme, const Options& options, int threads,
@@ -113,6 +121,7 @@ int bench(const Options& options)
                        "form.", "upd.", "tran.", "prec.", "levels", "particles", "M steps/s", "B/step", "flop/step",
                        "roof");
         for (const BenchCase& scheme : schemes()) {
+            if (!wanted(scheme, options)) continue;
             const BenchResult r = measured(scheme, options, t, limits);
             all.push_back(entry(r, limits));
             if (!options.json)
@@ -140,6 +149,10 @@ void add_bench(CLI::App& program, Command& chosen)
         ->check(CLI::Range(1, 10000));
     command->add_option("--threads", options->threads, "thread counts (default: 1 and all)")
         ->check(CLI::PositiveNumber);
+    command->add_option("--transfer", options->transfer, "only schemes with this transfer")
+        ->check(CLI::IsMember({"flip", "apic", "nodal"}));
+    command->add_option("--precision", options->precision, "only schemes with this precision")
+        ->check(CLI::IsMember({"f64", "mixed"}));
     command->callback([&chosen, options] { chosen = [options] { return bench(*options); }; });
 }
 } // namespace app

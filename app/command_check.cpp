@@ -2,6 +2,7 @@
 #include "app/commands.h"
 #include "app/forecast.h"
 #include "io/case.h"
+#include "solver/stable_time_step.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -46,22 +47,23 @@ int terminal_columns()
 
 void print_forecast(const solver::Problem& problem, const Forecast& forecast, int threads)
 {
-    const Real total = static_cast<Real>(forecast.total_particles());
     std::string levels;
     for (std::size_t l = 0; l < forecast.particles.size(); ++l)
         levels += fmt::format("{}level {} ({} mm): {}", l == 0 ? "" : ", ", l,
                               problem.grid.cell / static_cast<Real>(1 << l), forecast.particles[l]);
     fmt::print("particles    {}; {}\n", forecast.total_particles(), levels);
     fmt::print("memory       {}\n", bytes_text(forecast.memory));
-    fmt::print("time step    {:.4g} ms at the start\n", forecast.dt);
+    fmt::print("time step    {:.4g} ms at the start{}\n", forecast.dt,
+               problem.numerics.subcycling ? fmt::format(", of the finest level; of the coarsest {:.4g} ms",
+                                                         solver::substeps(problem) * forecast.dt)
+                                           : std::string());
     if (std::isfinite(forecast.end_time)) {
-        const Real work = forecast.steps * total;
         fmt::print("steps        {:.0f} to t = {:.4g} ms\n", forecast.steps, forecast.end_time);
         const Real rate = assumed_steps_per_s(problem.numerics);
         fmt::print(
             "wall time    {} on {} thread{}, assuming {:.0f} million particle-steps/s per thread (`cleave bench` "
             "measures it)\n",
-            duration_text(work / (rate * threads)), threads, threads == 1 ? "" : "s", rate / 1e6);
+            duration_text(forecast.particle_steps / (rate * threads)), threads, threads == 1 ? "" : "s", rate / 1e6);
         fmt::print("output       {:.0f} particle frames, {}; {:.0f} grid frames, {}; {:.0f} volumes, {}\n",
                    forecast.particle_frames, bytes_text(forecast.particle_bytes), forecast.grid_frames,
                    bytes_text(forecast.grid_bytes), forecast.vdb_frames, bytes_text(forecast.vdb_bytes));

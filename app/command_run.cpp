@@ -101,9 +101,10 @@ Ending loop(const RunOptions& options, Log& log, Run& run, RunFiles& files, std:
     const Real every_wall = run.problem.output.checkpoint_every_wall;
     while (solver::finished(run.problem, run.state) == solver::Finish::no) {
         solver::advance(run.problem, run.prepared, run.state, run.derived);
-        files.record.particle_steps += run.state.particles.size();
+        const std::uint64_t updates = solver::updates_per_step(run.problem, run.state);
+        files.record.particle_steps += updates;
         write_due(run.problem, run.prepared, run.derived, run.state, files);
-        progress.after_step(run.state.clock, newest(), run.state.particles.size());
+        progress.after_step(run.state.clock, newest(), updates);
         const double wall = seconds_since(start);
         if (stop_requested() || (options.walltime && wall > *options.walltime)) {
             write_checkpoint(run.problem, run.state, wall, files);

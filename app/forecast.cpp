@@ -3,6 +3,7 @@
 #include "io/particle_fields.h"
 #include "refine/populate.h"
 #include "refine/zone.h"
+#include "solver/stable_time_step.h"
 
 #include <algorithm>
 #include <array>
@@ -185,7 +186,10 @@ Forecast forecast(const solver::Problem& problem)
     const Real finest = problem.grid.cell / static_cast<Real>(1 << (problem.grid.levels - 1));
     forecast.dt = problem.numerics.cfl * finest / fastest_wave(problem);
     forecast.end_time = end_time(problem);
-    forecast.steps = std::ceil(forecast.end_time / forecast.dt);
+    forecast.steps = std::ceil(forecast.end_time / (solver::substeps(problem) * forecast.dt));
+    for (std::size_t l = 0; l < forecast.particles.size(); ++l)
+        forecast.particle_steps += forecast.steps * static_cast<Real>(forecast.particles[l]) *
+                                   (problem.numerics.subcycling ? Real(1 << l) : Real(1));
     const Real particles = static_cast<Real>(forecast.total_particles());
     forecast.memory = bytes_per_particle * particles + bytes_per_leaf * static_cast<Real>(forecast.leaves);
     forecast.particle_frames = frames(problem.output.particles, forecast, problem);

@@ -20,9 +20,10 @@ struct Forecast
 {
     std::vector<std::uint64_t> particles; // per level
     std::uint64_t leaves = 0;             // 1, 8^3 blocks of cells on all levels
-    Real dt = 0;                          // ms, before deformation shortens it
+    Real dt = 0;                          // ms, of the finest level, before deformation shortens it
     Real end_time = 0;                    // ms, by end.time or end.cod at full speed; infinite: not known
-    Real steps = 0;                       // 1
+    Real steps = 0;                       // 1, of the coarsest level
+    Real particle_steps = 0;              // 1, with sub-cycling those of finer levels several times a step
     Real memory = 0;                      // byte
     Real particle_frames = 0;             // 1
     Real particle_bytes = 0;              // byte, all frames

@@ -1,5 +1,7 @@
 #include "app/modelled.h"
 
+#include "solver/stable_time_step.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,6 +68,9 @@ std::vector<std::string> modelled(const solver::Problem& problem, const solver::
                                          for (const auto& face : state.levels.interface) slaves += face.slave.size();
                                          return slaves;
                                      }()));
+    if (problem.numerics.subcycling)
+        text.push_back(
+            fmt::format("sub-cycling: a step of the coarsest level is {} of the finest", solver::substeps(problem)));
     for (const solver::SymmetryPlane& plane : problem.symmetry)
         text.push_back(fmt::format("half model: symmetry plane {} = {} mm", "xyz"[plane.axis], plane.at));
     text.push_back(problem.grid.edge == solver::EdgeTreatment::fraction

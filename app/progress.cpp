@@ -81,9 +81,9 @@ Progress::Progress(const solver::End& end, Log& log, std::function<double()> sec
 
 Progress::Progress(const solver::End& end, Log& log) : Progress(end, log, system_seconds) {}
 
-void Progress::after_step(const solver::Clock& clock, const solver::HistoryLine& last, std::size_t particles)
+void Progress::after_step(const solver::Clock& clock, const solver::HistoryLine& last, std::uint64_t updates)
 {
-    particle_steps_ += particles;
+    particle_steps_ += updates;
     const std::optional<Real> done = share_done(end_, clock.time, last.cod);
     if (!started_) {
         started_ = true;

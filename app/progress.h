@@ -41,7 +41,7 @@ public:
     Progress(const solver::End& end, Log& log);
 
     /// Call after every step; does nothing when no line is due.
-    void after_step(const solver::Clock& clock, const solver::HistoryLine& last, std::size_t particles);
+    void after_step(const solver::Clock& clock, const solver::HistoryLine& last, std::uint64_t updates);
 
 private:
     solver::End end_;

@@ -41,9 +41,11 @@ void assemble_momentum(Levels& levels)
     });
 }
 
-void fill_motion_halos(Levels& levels)
+void fill_motion_halos(Levels& levels, int first_level)
 {
-    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+    const std::size_t first = levels.first_leaf(first_level);
+    core::parallel_for(levels.leaves.size() - first, [&](std::size_t task) {
+        const std::size_t n = first + task;
         NodeMotion* own = levels.motions(n);
         const NodeBox& box = levels.used.empty() ? whole_tile : levels.used[n];
         for (int axes = 1; axes < 8; ++axes) {

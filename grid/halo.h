@@ -14,6 +14,6 @@ void assemble_sums(Levels& levels);
 /// The same for momentum alone (second mapping of MUSL).
 void assemble_momentum(Levels& levels);
 
-/// Halo velocities and changes = what the seven upper neighbours own.
-void fill_motion_halos(Levels& levels);
+/// Halo velocities and changes = what the seven upper neighbours own; from a level on.
+void fill_motion_halos(Levels& levels, int first_level = 0);
 } // namespace grid

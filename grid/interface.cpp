@@ -106,6 +106,21 @@ NodeMotion& motion_at(Levels& levels, const NodeAddress& n)
     return levels.motions(static_cast<std::size_t>(n.leaf))[n.node];
 }
 
+/// Motion of a slave by its row of P.
+NodeMotion prolonged(Levels& levels, const LevelInterface& face, std::size_t s)
+{
+    NodeMotion slave{};
+    for (std::int32_t e = face.row_start[s]; e < face.row_start[s + 1]; ++e) {
+        const Real w = face.row_weight[static_cast<std::size_t>(e)];
+        const NodeMotion& master = motion_at(levels, face.row_master[static_cast<std::size_t>(e)]);
+        for (std::size_t a = 0; a < 3; ++a) {
+            slave.velocity[a] += w * master.velocity[a];
+            slave.change[a] += w * master.change[a];
+        }
+    }
+    return slave;
+}
+
 /// `add(master, weight, slave)` over all masters of one interface, then `clear(slave)` over all slaves.
 template <class Add, class Clear>
 void restrict_with(Levels& levels, const LevelInterface& face, const Add& add, const Clear& clear)
@@ -180,17 +195,21 @@ void restrict_momentum(Levels& levels)
 void prolong_motion(Levels& levels)
 {
     for (const LevelInterface& face : levels.interface)
+        core::parallel_for(face.slave.size(),
+                           [&](std::size_t s) { motion_at(levels, face.slave[s]) = prolonged(levels, face, s); });
+}
+
+void prolong_displacement(const LevelSteps& steps, Levels& levels)
+{
+    for (int l = std::max(1, steps.first); l < levels.count; ++l) {
+        const LevelInterface& face = levels.interface[static_cast<std::size_t>(l) - 1];
+        const Real per_dt = 1 / steps.of(l);
         core::parallel_for(face.slave.size(), [&](std::size_t s) {
-            NodeMotion slave{};
-            for (std::int32_t e = face.row_start[s]; e < face.row_start[s + 1]; ++e) {
-                const Real w = face.row_weight[static_cast<std::size_t>(e)];
-                const NodeMotion& master = motion_at(levels, face.row_master[static_cast<std::size_t>(e)]);
-                for (std::size_t a = 0; a < 3; ++a) {
-                    slave.velocity[a] += w * master.velocity[a];
-                    slave.change[a] += w * master.change[a];
-                }
-            }
-            motion_at(levels, face.slave[s]) = slave;
+            NodeMotion& slave = motion_at(levels, face.slave[s]);
+            NodeMotion fresh = prolonged(levels, face, s);
+            for (std::size_t a = 0; a < 3; ++a) fresh.velocity[a] = per_dt * (fresh.change[a] - slave.change[a]);
+            slave = fresh;
         });
+    }
 }
 } // namespace grid

@@ -25,4 +25,8 @@ void restrict_momentum(Levels& levels);
 
 /// Velocity and velocity change of slaves from their masters, coarsest level first: P.
 void prolong_motion(Levels& levels);
+
+/// Nodal scheme: displacement of the slaves on the levels of `steps` from their masters, and as velocity the mean over
+/// the step of their level, which just ends: masters may have changed theirs within it.
+void prolong_displacement(const LevelSteps& steps, Levels& levels);
 } // namespace grid

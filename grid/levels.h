@@ -122,6 +122,17 @@ struct LevelInterface
     HangingCells hanging;
 };
 
+/// Which levels take part in a phase, and how long their steps are. Sub-cycling (methods.md A.7) doubles the step from
+/// level to level; without it all levels step alike.
+struct LevelSteps
+{
+    Real dt = 0;          // ms, of the finest level
+    int first = 0;        // coarsest level that takes part; all finer ones do
+    int finest = 0;       // finest level; matters if `doubled`
+    bool doubled = false; // each level has twice the step of the next finer one
+    Real of(int level) const { return doubled ? dt * static_cast<Real>(1 << (finest - level)) : dt; }
+};
+
 /// The mask trees; defined where OpenVDB may be included.
 struct Topology;
 
@@ -144,6 +155,11 @@ struct Levels
 
     std::shared_ptr<const Topology> topology; // mask trees behind `leaves`
 
+    /// Number of the first leaf of a level; level `count`: number of leaves.
+    std::size_t first_leaf(int level) const
+    {
+        return static_cast<std::size_t>(level_start[static_cast<std::size_t>(level)]);
+    }
     Real spacing(int level) const { return spacing0 / static_cast<Real>(1 << level); }
     NodeSum* sums(std::size_t leaf) { return sum.data() + leaf * tile_nodes; }
     const NodeSum* sums(std::size_t leaf) const { return sum.data() + leaf * tile_nodes; }

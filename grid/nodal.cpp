@@ -1,5 +1,6 @@
 #include "grid/nodal.h"
 
+#include "core/huge_pages.h"
 #include "core/parallel.h"
 #include "core/simd.h"
 #include "grid/halo.h"
@@ -74,21 +75,30 @@ void add_lower_halos(std::size_t leaf, Levels& levels)
     }
 }
 
-/// Forces of slaves to their masters, and what these change in the masters' motion.
-void push_masters(Real reached, Real dt, const LevelInterface& face, Levels& levels)
+/// What a step keeps of the velocity and takes of the impulse under damping a: v+ = kept v + reached dt (f / m + g).
+struct Damped
 {
+    Real kept = 1, reached = 1; // 1
+    Damped(Real damping, Real dt)
+        : kept((1 - damping * dt / 2) / (1 + damping * dt / 2)), reached(1 / (1 + damping * dt / 2))
+    {
+    }
+};
+
+/// What the forces of slaves change in their masters' motion.
+void push_masters(Real damping, Real dt, const LevelInterface& face, Levels& levels)
+{
+    const Real reached_dt = Damped(damping, dt).reached * dt;
     core::parallel_for(face.master.size(), [&](std::size_t m) {
         const auto leaf = static_cast<std::size_t>(face.master[m].leaf);
-        NodeForce& master = levels.forces(leaf)[face.master[m].node];
         NodeMotion& motion = levels.motions(leaf)[face.master[m].node];
-        const Real impulse = reached * dt * master.per_mass;
+        const Real impulse = reached_dt * levels.forces(leaf)[face.master[m].node].per_mass;
         for (std::int32_t e = face.column_start[m]; e < face.column_start[m + 1]; ++e) {
             const auto entry = static_cast<std::size_t>(e);
             const NodeAddress& at = face.slave[static_cast<std::size_t>(face.column_slave[entry])];
             const NodeForce& slave = levels.forces(static_cast<std::size_t>(at.leaf))[at.node];
             for (std::size_t a = 0; a < 3; ++a) {
                 const Real force = face.column_weight[entry] * slave.force[a];
-                master.force[a] += force;
                 motion.velocity[a] += impulse * force;
                 motion.change[a] += dt * impulse * force;
             }
@@ -99,6 +109,7 @@ void push_masters(Real reached, Real dt, const LevelInterface& face, Levels& lev
 
 void start_nodes(const std::vector<WallPlane>& walls, const std::vector<Real>& mass_cutoff, Levels& levels)
 {
+    core::reserve_huge_pages(levels.sum.size(), levels.force);
     levels.force.resize(levels.sum.size());
     for (std::size_t n = 0; n < levels.sum.size(); ++n) levels.force[n] = {levels.sum[n].force, 0};
     assemble_masses(mass_cutoff, levels);
@@ -121,30 +132,38 @@ void restore_masses(const std::vector<Real>& mass_cutoff, Levels& levels)
     std::vector<NodeSum>().swap(levels.sum);
 }
 
-void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, Real damping, Real dt, Levels& levels)
+void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, Real damping, const LevelSteps& steps,
+                   Levels& levels)
 {
-    // v+ = kept v + reached dt (f / m + g); both are 1 without damping.
-    const Real kept = (1 - damping * dt / 2) / (1 + damping * dt / 2), reached = 1 / (1 + damping * dt / 2);
     using Line = core::Pack<Real, 4>;
-    const Real fallen = reached * dt;
-    const Line falling(Line::Lanes{fallen * gravity[0], fallen * gravity[1], fallen * gravity[2], 0});
     const Line axes(Line::Lanes{1, 1, 1, 0});
-    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+    const std::size_t first = levels.first_leaf(steps.first);
+    core::parallel_for(levels.leaves.size() - first, [&](std::size_t task) {
+        const std::size_t n = first + task;
+        const Real dt = steps.of(levels.leaves[n].level);
+        const Damped damped(damping, dt);
+        const Real reached_dt = damped.reached * dt;
+        const Line falling(Line::Lanes{reached_dt * gravity[0], reached_dt * gravity[1], reached_dt * gravity[2], 0});
         add_lower_halos(n, levels);
         const NodeForce* force = levels.forces(n);
         NodeMotion* motion = levels.motions(n);
         for_nodes(levels.used[n], leaf_side - 1, [&](int i) {
             // Fourth lanes: the spare places, which nobody reads, and 1 / m.
-            const Real impulse = reached * dt * force[i].per_mass;
+            const Real impulse = reached_dt * force[i].per_mass;
             const Line fall(impulse == 0 ? Line(Real(0)) : falling);
-            const Line velocity = Line(kept) * Line::load(motion[i].velocity.data()) +
+            const Line drift(impulse == 0 ? Real(0) : dt); // slaves keep where they were: prolong_displacement
+            const Line velocity = Line(damped.kept) * Line::load(motion[i].velocity.data()) +
                                   Line(impulse) * Line::load(force[i].force.data()) * axes + fall;
             velocity.store(motion[i].velocity.data());
-            (Line::load(motion[i].change.data()) + Line(dt) * velocity).store(motion[i].change.data());
+            (Line::load(motion[i].change.data()) + drift * velocity).store(motion[i].change.data());
         });
     });
-    for (std::size_t l = levels.interface.size(); l-- > 0;) push_masters(reached, dt, levels.interface[l], levels);
-    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+    const int fine = std::max(1, steps.first); // finer side of the coarsest interface that is pushed
+    for (int l = levels.count - 1; l >= fine; --l)
+        push_masters(damping, steps.of(l), levels.interface[static_cast<std::size_t>(l) - 1], levels);
+    const std::size_t pushed = levels.first_leaf(fine - 1);
+    core::parallel_for(levels.leaves.size() - pushed, [&](std::size_t task) {
+        const std::size_t n = pushed + task;
         fix_walls(walls, levels.leaves[n], levels.motions(n),
                   [](NodeMotion& m, std::size_t a) { m.velocity[a] = m.change[a] = 0; });
     });

@@ -2,6 +2,7 @@
 /// that some cell of C_l has as a corner; the running leaf number sits in the tree leaf's transient data.
 #include "grid/topology.h"
 
+#include "core/huge_pages.h"
 #include "grid/interface.h"
 
 #include <algorithm>
@@ -53,6 +54,7 @@ void allocate_tiles(Levels& levels)
 {
     const std::size_t nodes = levels.leaves.size() * tile_nodes;
     levels.sum.assign(nodes, NodeSum{});
+    core::reserve_huge_pages(nodes, levels.motion);
     levels.motion.assign(nodes, NodeMotion{});
     levels.cell_start.clear();
 }

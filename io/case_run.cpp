@@ -1,5 +1,6 @@
 #include "io/case_draft.h"
 #include "io/particle_fields.h"
+#include "solver/stable_time_step.h"
 
 #include <fmt/format.h>
 
@@ -64,6 +65,17 @@ void read_numerics(Draft& draft)
     numerics.precision = section.choice<solver::Precision>("precision");
     if (numerics.precision == solver::Precision::mixed && numerics.transfer != solver::Transfer::nodal)
         section.error("precision", "precision = \"mixed\" needs transfer = \"nodal\"");
+    numerics.subcycling = section.boolean("subcycling");
+    if (numerics.subcycling && numerics.transfer != solver::Transfer::nodal)
+        section.error("subcycling", "subcycling = true needs transfer = \"nodal\"");
+    if (numerics.subcycling && numerics.cfl > solver::subcycled_step_share)
+        section.error(
+            "cfl", fmt::format("cfl must be at most {} with subcycling: steps of neighbouring levels resonate beyond",
+                               solver::subcycled_step_share));
+    if (numerics.subcycling && numerics.damping > 0)
+        section.error("damping", "damping is not built for steps that differ between levels (subcycling = true)");
+    if (numerics.subcycling && draft.problem.grid.levels == 1)
+        draft.diagnostics.warning(section.place("subcycling"), "subcycling = true changes nothing on one level");
     if (numerics.cfl >= 1) section.error("cfl", "cfl must be below 1: the explicit step is unstable beyond");
     if (numerics.transfer != solver::Transfer::flip && numerics.pic_fraction > 0)
         section.error("pic_fraction", "pic_fraction belongs to transfer = \"flip\"");

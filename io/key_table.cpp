@@ -305,6 +305,8 @@ constexpr std::array keys{
     Key{"numerics", "damping", real, defaulted, "0", "a in dv/dt = f/m - a v, for quasi-static ends", dim::rate,
         non_negative},
     Key{"numerics", "cfl", real, defaulted, "0.5", "dt = cfl * smallest cell / wave speed", {}, positive},
+    Key{"numerics", "subcycling", boolean, defaulted, "false",
+        "each level takes twice the step of the next finer one (transfer = nodal only, cfl at most 0.6)"},
     Key{"numerics",
         "mass_cutoff",
         real,

@@ -108,6 +108,13 @@ void check_loads(const Problem& problem, const grid::Levels& levels, const Deriv
                                                problem.loads[i].name));
     }
 }
+void find_fast_nodes(const Problem& problem, const grid::Levels& levels, Derived& derived)
+{
+    if (!problem.numerics.subcycling) return;
+    std::vector<grid::NodeAddress> held;
+    for (const LoadNodes& load : derived.load_nodes) held.insert(held.end(), load.node.begin(), load.node.end());
+    derived.fast_nodes = grid::find_fast_nodes(levels, held);
+}
 } // namespace
 
 State initialise(const Problem& problem, const Prepared& prepared, Derived& derived)
@@ -148,6 +155,7 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
     if (nodal(problem)) {
         start_nodal(prepared, state);
         keep_heavy_nodes(state.levels, derived.load_nodes);
+        find_fast_nodes(problem, state.levels, derived);
     }
     const bool moving = begins_with_motion(problem);
     if (moving && nodal(problem)) set_node_motion(problem, prepared, 0, state);
@@ -182,6 +190,7 @@ void resume(const Problem& problem, const Prepared& prepared, State& state, Deri
         state.levels.motion = std::move(motion);
         resume_nodal(prepared, state);
         keep_heavy_nodes(state.levels, derived.load_nodes);
+        find_fast_nodes(problem, state.levels, derived);
     } else {
         transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
     }

@@ -63,38 +63,29 @@ Vec3 spin_velocity(const Load& load, Real spin, const Vec3& r)
     return axis.cross(r);
 }
 
-/// What a held node has collected, wherever the scheme keeps it.
-struct Held
-{
-    Real mass;
-    std::array<Real, 3> momentum; // zero in the nodal scheme, where nothing is mapped
-    std::array<Real, 3> force;
-};
-
-Held held_at(const grid::Levels& levels, const NodeAddress& at)
+/// Mass of a held node [g], wherever the scheme keeps it.
+Real mass_at(const grid::Levels& levels, const NodeAddress& at)
 {
     const auto leaf = static_cast<std::size_t>(at.leaf);
-    if (levels.sum.empty()) {
-        const grid::NodeForce& node = levels.forces(leaf)[at.node];
-        return {node.mass(), {}, node.force};
+    return levels.sum.empty() ? levels.forces(leaf)[at.node].mass() : levels.sums(leaf)[at.node].mass;
+}
+
+/// Velocity a held node would have now without its load. Nodal scheme: as the forces have left it. Else what the
+/// transfer carries on, plus dt (f / m + g): FLIP carries the prescribed velocity `before`, PIC and APIC the mapped
+/// one.
+Vec3 free_velocity(const Problem& problem, const Prepared& prepared, const grid::Levels& levels, const NodeAddress& at,
+                   const Vec3& before, Real dt)
+{
+    const auto leaf = static_cast<std::size_t>(at.leaf);
+    if (prepared.options.transfer == Transfer::nodal) {
+        const grid::NodeMotion& motion = levels.motions(leaf)[at.node];
+        return {motion.velocity[0], motion.velocity[1], motion.velocity[2]};
     }
-    const grid::NodeSum& node = levels.sums(leaf)[at.node];
-    return {node.mass, node.momentum, node.force};
-}
-
-/// Velocity the transfer carries on from before the step: FLIP keeps the prescribed one, PIC and APIC the mapped one.
-Vec3 carried_velocity(const Prepared& prepared, const Held& sum, const Vec3& before)
-{
     const Real mapped = prepared.options.transfer == Transfer::apic ? Real(1) : prepared.options.pic_fraction;
-    Vec3 v;
-    for (int a = 0; a < 3; ++a)
-        v[a] = (1 - mapped) * before[a] + mapped * sum.momentum[static_cast<std::size_t>(a)] / sum.mass;
-    return v;
-}
-
-Vec3 total_force(const Problem& problem, const Held& sum)
-{
-    return Vec3(sum.force[0], sum.force[1], sum.force[2]) + sum.mass * problem.gravity;
+    const grid::NodeSum& sum = levels.sums(leaf)[at.node];
+    const Vec3 momentum(sum.momentum[0], sum.momentum[1], sum.momentum[2]);
+    const Vec3 force(sum.force[0], sum.force[1], sum.force[2]);
+    return (1 - mapped) * before + (mapped * momentum + dt * force) / sum.mass + dt * problem.gravity;
 }
 
 Real new_spin(const Problem& problem, const Prepared& prepared, const Load& load, const LoadState& state,
@@ -105,13 +96,13 @@ Real new_spin(const Problem& problem, const Prepared& prepared, const Load& load
     const Vec3 before = prescribed(load, time);
     const Turn turn(problem, load, state);
     for (std::size_t n = 0; n < nodes.node.size(); ++n) {
-        const Held sum = held_at(levels, nodes.node[n]);
-        if (sum.mass <= 0) continue;
+        const Real mass = mass_at(levels, nodes.node[n]);
+        if (mass <= 0) continue;
         const Vec3 r = turn.arm(nodes.position[n]);
-        const Vec3 v = carried_velocity(prepared, sum, before + spin_velocity(load, state.spin, r));
-        const Vec3 momentum = sum.mass * (v - before) + dt * total_force(problem, sum);
-        angular_momentum += r.cross(momentum)[load.axis];
-        inertia += sum.mass * r.squaredNorm();
+        const Vec3 v =
+            free_velocity(problem, prepared, levels, nodes.node[n], before + spin_velocity(load, state.spin, r), dt);
+        angular_momentum += mass * r.cross(v - before)[load.axis];
+        inertia += mass * r.squaredNorm();
     }
     return inertia > 0 ? angular_momentum / inertia : Real(0);
 }
@@ -138,7 +129,7 @@ void keep_heavy_nodes(const grid::Levels& levels, std::vector<LoadNodes>& nodes)
         LoadNodes heavy;
         heavy.shift = held.shift;
         for (std::size_t n = 0; n < held.node.size(); ++n) {
-            if (!(held_at(levels, held.node[n]).mass > 0)) continue;
+            if (!(mass_at(levels, held.node[n]) > 0)) continue;
             heavy.node.push_back(held.node[n]);
             heavy.position.push_back(held.position[n]);
         }
@@ -198,9 +189,9 @@ void apply_loads(const Problem& problem, const Prepared& prepared, const std::ve
         Real held_mass = 0;
         for (std::size_t n = 0; n < nodes[i].node.size(); ++n) {
             const NodeAddress at = nodes[i].node[n];
-            const Held sum = held_at(levels, at);
-            if (sum.mass <= 0) continue;
-            held_mass += sum.mass;
+            const Real mass = mass_at(levels, at);
+            if (mass <= 0) continue;
+            held_mass += mass;
             grid::NodeMotion& motion = levels.motions(static_cast<std::size_t>(at.leaf))[at.node];
             Vec3 old = before;
             Vec3 fresh = after;
@@ -209,8 +200,7 @@ void apply_loads(const Problem& problem, const Prepared& prepared, const std::ve
                 old += spin_velocity(load, spin_before, r);
                 fresh += spin_velocity(load, state.spin, r);
             }
-            const Vec3 given =
-                sum.mass * (fresh - carried_velocity(prepared, sum, old)) - dt * total_force(problem, sum);
+            const Vec3 given = mass * (fresh - free_velocity(problem, prepared, levels, at, old, dt));
             for (int a = 0; a < 3; ++a) {
                 if (!holds(load, a)) continue;
                 const auto axis = static_cast<std::size_t>(a);

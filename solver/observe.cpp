@@ -24,6 +24,12 @@ Real mean_displacement(const Problem& problem, const State& state, const std::ve
     return places.empty() ? Real(0) : sum / static_cast<Real>(places.size());
 }
 
+std::uint64_t particles_on(const grid::Levels& levels, int level)
+{
+    return levels.cell_start[levels.first_leaf(level + 1) * grid::leaf_cells] -
+           levels.cell_start[levels.first_leaf(level) * grid::leaf_cells];
+}
+
 /// Mean reaction of a named load since the last line, full specimen, positive along `sign`.
 Real mean_force(const Problem& problem, const Derived& derived, const State& state, const std::string& name, Real sign)
 {
@@ -49,10 +55,16 @@ std::vector<std::uint64_t> particles_per_level(const State& state)
 {
     const grid::Levels& levels = state.levels;
     std::vector<std::uint64_t> count;
-    for (std::size_t l = 0; l < static_cast<std::size_t>(levels.count); ++l)
-        count.push_back(levels.cell_start[static_cast<std::size_t>(levels.level_start[l + 1]) * grid::leaf_cells] -
-                        levels.cell_start[static_cast<std::size_t>(levels.level_start[l]) * grid::leaf_cells]);
+    for (int l = 0; l < levels.count; ++l) count.push_back(particles_on(levels, l));
     return count;
+}
+
+std::uint64_t updates_per_step(const Problem& problem, const State& state)
+{
+    if (!problem.numerics.subcycling) return state.particles.size();
+    std::uint64_t updates = 0;
+    for (int l = 0; l < state.levels.count; ++l) updates += particles_on(state.levels, l) << l;
+    return updates;
 }
 
 HistoryLine observe(const Problem& problem, const Prepared& prepared, const Derived& derived, State& state)

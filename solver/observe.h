@@ -17,6 +17,9 @@ HistoryLine observe(const Problem& problem, const Prepared& prepared, const Deri
 /// Number of particles on each level.
 std::vector<std::uint64_t> particles_per_level(const State& state);
 
+/// Particles advanced in one step, counted as often as they are: with sub-cycling those of finer levels several times.
+std::uint64_t updates_per_step(const Problem& problem, const State& state);
+
 enum class Finish
 {
     no,

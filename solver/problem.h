@@ -61,6 +61,7 @@ struct Numerics
     Real pic_fraction = 0;    // 1, share of PIC in the FLIP velocity update
     Real damping = 0;         // 1/ms, a in v' = f / m - a v
     Real cfl = 0.5;           // 1, dt = cfl * min h / c_d
+    bool subcycling = false;  // nodal scheme: each level has twice the step of the next finer one
     Real mass_cutoff = 1e-10; // 1, nodes lighter than this share of a full cell's mass are inactive
 };
 

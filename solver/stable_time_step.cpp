@@ -5,6 +5,7 @@
 #include "particles/tensors.h"
 #include "transfer/cell_squeeze.h"
 #include "transfer/gimp_box.h"
+#include "transfer/lattice_squeeze.h"
 
 #include <fmt/format.h>
 
@@ -42,7 +43,7 @@ Real signal_speed(const Prepared& prepared, const State& state, std::size_t p)
 std::vector<Real> fastest_on_lattice(const Prepared& prepared, const State& state)
 {
     std::vector<transfer::LatticeSurvey> survey;
-    transfer::survey_lattice(prepared.laws, state.lattice, state.particles, state.levels, survey);
+    transfer::survey_squeeze(prepared.laws, state.lattice, state.particles, state.levels, survey);
     std::vector<Real> fastest(survey.size(), 0);
     for (std::size_t n = 0; n < survey.size(); ++n) {
         if (!std::isfinite(survey[n].squeeze)) not_finite(state, survey[n].worst);
@@ -70,12 +71,18 @@ Real stable_time_step(const Problem& problem, const Prepared& prepared, const St
     const std::vector<Real> fastest = prepared.options.transfer == Transfer::nodal
                                           ? fastest_on_lattice(prepared, state)
                                           : fastest_of_particles(prepared, state);
+    const bool subcycling = problem.numerics.subcycling;
     const Real finest = levels.spacing(levels.count - 1);
-    const Real share =
-        uses_boxes(prepared.options) ? transfer::box_step_share(prepared.per_axis) : transfer::deformed_step_share;
+    const Real share = uses_boxes(prepared.options) ? transfer::box_step_share(prepared.per_axis)
+                       : subcycling                 ? subcycled_step_share
+                                                    : transfer::deformed_step_share;
     Real dt = problem.numerics.cfl * finest / prepared.wave_speed;
-    for (std::size_t n = 0; n < fastest.size(); ++n)
-        if (fastest[n] > 0) dt = std::min(dt, share * levels.spacing(levels.leaves[n].level) / fastest[n]);
+    for (std::size_t n = 0; n < fastest.size(); ++n) {
+        if (fastest[n] <= 0) continue;
+        // Sub-cycled steps grow with the spacing.
+        const Real spacing = subcycling ? finest : levels.spacing(levels.leaves[n].level);
+        dt = std::min(dt, share * spacing / fastest[n]);
+    }
     return dt;
 }
 } // namespace solver

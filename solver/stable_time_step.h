@@ -9,10 +9,22 @@ namespace solver
 /// Steps between two estimates; the step is constant in between.
 inline constexpr int time_step_interval = 32;
 
-/// dt = min( cfl h_f / c_d,  transfer::deformed_step_share h_l / (c_d s + |v|) );  basis gimp: box_step_share instead.
+/// Largest cfl and share of the deformed width with sub-cycling: waves of the fine level resonate with the step of the
+/// next coarser one from 0.72 on (methods.md A.7).
+inline constexpr Real subcycled_step_share = 0.6;
+
+/// Steps of the finest level in one of the coarsest.
+inline int substeps(const Problem& problem)
+{
+    return problem.numerics.subcycling ? 1 << (problem.grid.levels - 1) : 1;
+}
+
+/// Step of the finest level, dt = min( cfl h_f / c_d,  transfer::deformed_step_share h_l / (c_d s + |v|) );  basis
+/// gimp: box_step_share instead.
 ///
 /// s is the largest compression of a cell of the level: total formulation max |F^{-T} e_a| over axes and particles that
 /// still transmit force (damage < 1), and |v| = 0; updated formulation s = 1 and |v| the largest particle speed.
+/// With sub-cycling a level is held to its own step, 2^(l_max - l) dt, and the share is subcycled_step_share.
 /// @return  ms
 /// @error   core::NumericalError if a velocity or deformation is not finite, naming the particle
 Real stable_time_step(const Problem& problem, const Prepared& prepared, const State& state);

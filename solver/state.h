@@ -14,9 +14,9 @@ namespace solver
 {
 struct Clock
 {
-    std::int64_t step = 0;
-    Real time = 0; // ms
-    Real dt = 0;   // ms, of the last step
+    std::int64_t step = 0; // of the coarsest level
+    Real time = 0;         // ms
+    Real dt = 0;           // ms, of the last step
 };
 
 /// Motion and reaction of one load (same order as Problem::loads).
@@ -25,7 +25,7 @@ struct LoadState
     Vec3 displacement = Vec3::Zero();   // mm, prescribed part
     Real angle = 0;                     // rad, of a pin
     Real spin = 0;                      // rad/ms, of a pin
-    Vec3 reaction = Vec3::Zero();       // N, last step: force of the load on the body, modelled part
+    Vec3 reaction = Vec3::Zero();       // N, last step (substep): force of the load on the body, modelled part
     Vec3 impulse = Vec3::Zero();        // N ms, since the last history line
     Real impulse_time = 0;              // ms, time it was gathered over
     Vec3 sample_impulse = Vec3::Zero(); // N ms, since the measures were last sampled

@@ -10,6 +10,9 @@
 #include "solver/nonlocal.h"
 #include "solver/stable_time_step.h"
 
+#include <algorithm>
+#include <bit>
+
 namespace solver
 {
 namespace
@@ -24,7 +27,9 @@ transfer::PassOptions pass_options(const Prepared& prepared, const Clock& clock)
 
 void choose_dt(const Problem& problem, const Prepared& prepared, State& state)
 {
-    if (state.clock.step % time_step_interval == 0) state.clock.dt = stable_time_step(problem, prepared, state);
+    const int nested = substeps(problem);
+    if (state.clock.step % std::max(1, time_step_interval / nested) == 0)
+        state.clock.dt = nested * stable_time_step(problem, prepared, state);
 }
 
 /// Node velocities of all levels from the particles' sums.
@@ -99,7 +104,7 @@ void step_nodal(const Problem& problem, const Prepared& prepared, State& state, 
 
     add_external_forces(problem, state, derived);
     add_external_work(problem, derived, state);
-    grid::advance_nodes(prepared.walls, problem.gravity, problem.numerics.damping, state.clock.dt, state.levels);
+    grid::advance_nodes(prepared.walls, problem.gravity, problem.numerics.damping, {state.clock.dt}, state.levels);
     add_damped_work(problem, derived, state);
     apply_loads(problem, prepared, derived.load_nodes, state.clock.time, state.clock.dt, state.levels, state.loads);
     grid::prolong_motion(state.levels);
@@ -112,8 +117,37 @@ void step_nodal(const Problem& problem, const Prepared& prepared, State& state, 
     tick(state.clock);
 }
 
+void step_subcycled(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
+{
+    choose_dt(problem, prepared, state);
+    const auto count = static_cast<unsigned>(substeps(problem));
+    const int finest = state.levels.count - 1;
+    grid::LevelSteps steps{state.clock.dt / count, 0, finest, true};
+    transfer::PassOptions options = pass_options(prepared, state.clock);
+    for (unsigned n = 0; n < count; ++n) {
+        steps.first = n == 0 ? 0 : finest - std::countr_zero(n); // whose step begins
+        grid::advance_nodes(prepared.walls, problem.gravity, 0, steps, state.levels);
+        apply_loads(problem, prepared, derived.load_nodes, state.clock.time, steps.dt, state.levels, state.loads);
+        grid::drift_fast_nodes(steps.dt, state.levels, derived.fast_nodes);
+        state.clock.time += steps.dt;
+
+        steps.first = finest - std::countr_zero(n + 1); // whose step ends
+        grid::prolong_displacement(steps, state.levels);
+        grid::average_fast_nodes(steps, state.levels, derived.fast_nodes);
+        grid::fill_motion_halos(state.levels, steps.first);
+
+        options.time = state.clock.time;
+        transfer::advance_lattice(steps, options, prepared.laws, state.lattice, state.particles, state.levels,
+                                  state.leaf_work);
+        grid::release_fast_nodes(steps, state.levels, derived.fast_nodes);
+    }
+    start_nonlocal_cracks(options, prepared, state, derived.nonlocal);
+    ++state.clock.step;
+}
+
 void advance(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
 {
+    if (problem.numerics.subcycling) return step_subcycled(problem, prepared, state, derived);
     if (nodal(problem)) return step_nodal(problem, prepared, state, derived);
     problem.numerics.stress_update == StressUpdate::musl ? step_musl(problem, prepared, state, derived)
                                                          : step(problem, prepared, state, derived);

@@ -1,6 +1,7 @@
 /// One time step of all levels, and the run's beginning.
 #pragma once
 
+#include "grid/fast_nodes.h"
 #include "solver/ligaments.h"
 #include "solver/loads.h"
 #include "solver/prepared.h"
@@ -21,6 +22,7 @@ struct Derived
     SurfaceForces surface;
     std::vector<Vec3> external; // [leaf][729] N, scratch: forces of this step that are not internal
     transfer::NonlocalTable nonlocal;
+    grid::FastNodes fast_nodes; // sub-cycling only
 };
 
 /// Particles, leaves and sums at time 0.
@@ -53,6 +55,12 @@ void step_musl(const Problem& problem, const Prepared& prepared, State& state, D
 
 /// The same with velocity and displacement kept on the nodes: only forces go there, only gradients come back.
 void step_nodal(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
+
+/// The same with sub-cycling (methods.md A.7): one step of the coarsest level, 2^(l_max - l) dt for level l. Nested
+/// impulses: what a level's particles push is given to the nodes at once, at the beginning of that level's step; every
+/// such impulse sums to zero, so momentum does not change. Strain comes from the displacement of the nodes over the
+/// step, at its end. Loads act in every step of the finest level.
+void step_subcycled(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
 
 /// The step the case asks for.
 void advance(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);

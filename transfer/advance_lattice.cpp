@@ -230,10 +230,21 @@ void record_onsets(Lattice& lattice, const grid::Levels& levels, particles::Part
 void advance_lattice(const PassOptions& options, const LawTable& laws, Lattice& lattice,
                      particles::Particles& particles, grid::Levels& levels, std::vector<LeafWork>& leaf_work)
 {
+    advance_lattice(grid::LevelSteps{options.dt}, options, laws, lattice, particles, levels, leaf_work);
+}
+
+void advance_lattice(const grid::LevelSteps& steps, const PassOptions& options, const LawTable& laws, Lattice& lattice,
+                     particles::Particles& particles, grid::Levels& levels, std::vector<LeafWork>& leaf_work)
+{
+    const std::size_t first = levels.first_leaf(steps.first);
     std::visit(
         [&](auto& table) {
-            core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
-                const Context context{options, laws, lattice, Real(1) / levels.spacing(levels.leaves[n].level), n};
+            core::parallel_for(levels.leaves.size() - first, [&](std::size_t task) {
+                const std::size_t n = first + task;
+                const int level = levels.leaves[n].level;
+                PassOptions of_level = options;
+                of_level.dt = steps.of(level);
+                const Context context{of_level, laws, lattice, Real(1) / levels.spacing(level), n};
                 advance_leaf(context, table, particles, levels, leaf_work[n], lattice.onset[n], lattice.near[n]);
             });
         },

@@ -1,5 +1,6 @@
 #include "transfer/lattice.h"
 
+#include "core/huge_pages.h"
 #include "core/parallel.h"
 #include "transfer/chunk.h"
 
@@ -111,6 +112,7 @@ void for_quantities(State& state, Particles& particles, const Visit& visit)
 template <class T>
 void pack(const particles::Particles& particles, BlockTable<T>& table)
 {
+    core::reserve_huge_pages(table.block.size(), table.state);
     table.state.resize(table.block.size());
     core::parallel_for(table.block.size(), [&](std::size_t b) {
         const CellBlock<T>& block = table.block[b];

@@ -61,6 +61,10 @@ bool enter_lattice(Precision precision, const grid::Levels& levels, particles::P
 void advance_lattice(const PassOptions& options, const LawTable& laws, Lattice& lattice,
                      particles::Particles& particles, grid::Levels& levels, std::vector<LeafWork>& leaf_work);
 
+/// The same for the levels of `steps`, each over its own dt, which ends now (options.time).
+void advance_lattice(const grid::LevelSteps& steps, const PassOptions& options, const LawTable& laws, Lattice& lattice,
+                     particles::Particles& particles, grid::Levels& levels, std::vector<LeafWork>& leaf_work);
+
 /// What the particles of one leaf say together.
 struct LatticeSurvey
 {

@@ -1,6 +1,7 @@
 #include "core/parallel.h"
 #include "transfer/block_work.h"
 #include "transfer/cell_squeeze.h"
+#include "transfer/lattice_squeeze.h"
 #include "transfer/solid_share.h"
 
 #include <cmath>
@@ -38,7 +39,17 @@ template <class T>
     }
 }
 
+/// Energy of the particles of one slot [mJ].
 template <class T>
+Real energy_of(const SlotLaw<T>& law, const BlockState<T>& state, int slot, const BlockLanes<T>& volume)
+{
+    using V = BlockLanes<T>;
+    core::Sym<V> stress;
+    for (std::size_t n = 0; n < 6; ++n) stress.s[n] = load_slot<T>(state.stress[n], slot);
+    return static_cast<Real>(core::sum(core::select(volume > V(T(0)), volume * stored(law, stress), V(T(0)))));
+}
+
+template <bool with_energy, class T>
 void survey_block(const Context& context, const particles::Particles& particles, const grid::NodeMotion* tile,
                   const CellBlock<T>& block, const BlockState<T>& state, LatticeSurvey& survey)
 {
@@ -48,17 +59,15 @@ void survey_block(const Context& context, const particles::Particles& particles,
     Slopes<V> displacement[3];
     for (int a = 0; a < 3; ++a) displacement[a] = slopes_at_slots(corner[a]);
     SlotLaw<T> law[slots];
-    const int law_step = find_laws(context, block, particles, law);
+    const int law_step = with_energy ? find_laws(context, block, particles, law) : 0;
     const V zero(T(0));
     for (int s = 0; s < slots; ++s) {
         const core::Mat<V> f = deformation_at(displacement, s, context.per_spacing);
         V volume = load_slot<T>(state.rest_volume, s);
         V squeeze = core::select(volume > zero, cell_squeeze(f), zero);
         if (!particles.cracks.empty()) regard_cracks(context, block, particles, s, volume, squeeze);
-        core::Sym<V> stress;
-        for (std::size_t n = 0; n < 6; ++n) stress.s[n] = load_slot<T>(state.stress[n], s);
-        const V energy = volume * core::determinant(f) * stored(law[s * law_step], stress);
-        survey.elastic += static_cast<Real>(core::sum(core::select(volume > zero, energy, zero)));
+        if constexpr (with_energy)
+            survey.elastic += energy_of(law[s * law_step], state, s, volume * core::determinant(f));
         for (int i = 0; i < block.count; ++i) {
             // Not std::max, which drops a NaN; empty slots have squeeze 0.
             if (std::isnan(survey.squeeze) || squeeze[i] <= static_cast<T>(survey.squeeze)) continue;
@@ -67,10 +76,10 @@ void survey_block(const Context& context, const particles::Particles& particles,
         }
     }
 }
-} // namespace
 
-void survey_lattice(const LawTable& laws, const Lattice& lattice, const particles::Particles& particles,
-                    const grid::Levels& levels, std::vector<LatticeSurvey>& survey)
+template <bool with_energy>
+void survey_leaves(const LawTable& laws, const Lattice& lattice, const particles::Particles& particles,
+                   const grid::Levels& levels, std::vector<LatticeSurvey>& survey)
 {
     survey.assign(levels.leaves.size(), {});
     const PassOptions no_step;
@@ -79,9 +88,23 @@ void survey_lattice(const LawTable& laws, const Lattice& lattice, const particle
             core::parallel_for(survey.size(), [&](std::size_t n) {
                 const Context context{no_step, laws, lattice, Real(1) / levels.spacing(levels.leaves[n].level), n};
                 for (std::uint32_t b = table.start[n]; b < table.start[n + 1]; ++b)
-                    survey_block(context, particles, levels.motions(n), table.block[b], table.state[b], survey[n]);
+                    survey_block<with_energy>(context, particles, levels.motions(n), table.block[b], table.state[b],
+                                              survey[n]);
             });
         },
         lattice.blocks);
+}
+} // namespace
+
+void survey_lattice(const LawTable& laws, const Lattice& lattice, const particles::Particles& particles,
+                    const grid::Levels& levels, std::vector<LatticeSurvey>& survey)
+{
+    survey_leaves<true>(laws, lattice, particles, levels, survey);
+}
+
+void survey_squeeze(const LawTable& laws, const Lattice& lattice, const particles::Particles& particles,
+                    const grid::Levels& levels, std::vector<LatticeSurvey>& survey)
+{
+    survey_leaves<false>(laws, lattice, particles, levels, survey);
 }
 } // namespace transfer

@@ -129,6 +129,17 @@ TEST_F(CaseError, mixed_precision_without_the_nodal_scheme)
     EXPECT_TRUE(contains(complaint(text + "formulation = \"updated\"\n"), error)); // flip by default
 }
 
+TEST_F(CaseError, subcycling_that_cannot_be)
+{
+    const std::string text = std::string(valid_case) + "[numerics]\nsubcycling = true\n";
+    EXPECT_EQ(complaint(text + "cfl = 0.6\n"), "");
+    const std::string error = "error: subcycling = true needs transfer = \"nodal\"\n";
+    EXPECT_TRUE(contains(complaint(text + "transfer = \"flip\"\n"), error));
+    EXPECT_TRUE(contains(complaint(text + "formulation = \"updated\"\n"), error));
+    EXPECT_TRUE(contains(complaint(text + "cfl = 0.61\n"), "error: cfl must be at most 0.6 with subcycling"));
+    EXPECT_TRUE(contains(complaint(std::string(valid_case) + "[numerics]\nsubcycling = 1\n"), "subcycling"));
+}
+
 TEST_F(CaseError, missing_file)
 {
     try {

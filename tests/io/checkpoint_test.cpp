@@ -128,12 +128,12 @@ TEST(Checkpoint, ReturnsAnIntactStateWithoutTheOptionalColumns)
 namespace
 {
 /// A bar that yields, is torn apart quickly and carries cracks after a while; nodal scheme.
-support::Job torn_bar(solver::Precision precision)
+support::Job torn_bar(const solver::Numerics& numerics)
 {
     solver::Problem problem = support::bar(support::breakable(), 20, 0.01);
     problem.grid.levels = 2;
     problem.zones = {support::zone(geometry::box({-1, 1, -1}, {3, 2, 3}), 1)};
-    problem.numerics = support::nodal_numerics(precision);
+    problem.numerics = numerics;
     return support::started(problem);
 }
 
@@ -154,9 +154,12 @@ support::Job from_file(support::Job& run, const std::filesystem::path& folder)
 // Cracks start before some checkpoints and after others.
 TEST(Checkpoint, ANodalRunContinuesToTheSameBits)
 {
-    for (const solver::Precision precision : {solver::Precision::f64, solver::Precision::mixed}) {
+    for (const solver::Numerics& numerics :
+         {support::nodal_numerics(solver::Precision::f64), support::nodal_numerics(solver::Precision::mixed),
+          support::subcycled_numerics(solver::Precision::mixed)})
+    {
         const faults::Folder folder;
-        support::Job run = torn_bar(precision);
+        support::Job run = torn_bar(numerics);
         std::size_t found = 0, started = 0;
         for (int n = 0; n < 20; ++n) {
             support::advance(10, run);
@@ -183,7 +186,7 @@ TEST(Checkpoint, ANodalRunContinuesToTheSameBits)
 TEST(Checkpoint, RefusesNodesThatDoNotFitTheLeaves)
 {
     const faults::Folder folder;
-    support::Job run = torn_bar(solver::Precision::f64);
+    support::Job run = torn_bar(support::nodal_numerics(solver::Precision::f64));
     const solver::OutputColumns columns(run.state);
     run.state.levels.motion.pop_back();
     const auto path = io::write_checkpoint(folder.path(), run.state, this_case, 1);

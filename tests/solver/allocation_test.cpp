@@ -100,6 +100,15 @@ TEST(Allocation, a_step_of_the_nodal_scheme_makes_none)
     }
 }
 
+TEST(Allocation, a_subcycled_step_makes_none)
+{
+    support::Job run = bar(support::subcycled_numerics(solver::Precision::mixed));
+    const int between = interval / solver::substeps(run.problem);
+    support::advance(2 * between, run);
+    EXPECT_LE(allocations_of(1, run), 2); // chooses dt
+    EXPECT_EQ(allocations_of(between - 1, run), 0);
+}
+
 // One table of what the leaves' tasks collect per step.
 TEST(Allocation, a_step_of_the_total_formulation_makes_one)
 {

@@ -100,12 +100,17 @@ struct Vibration
     Real first = 0, last = 0; // mean of E / E_0 - 1 over the first and the last fifth
 };
 
-Vibration vibration(Real cfl, solver::Precision precision)
+Vibration vibration(Real cfl, solver::Precision precision, bool subcycling = false)
 {
     solver::Problem problem = support::bar(support::metal(), 0, 0);
     problem.loads.clear();
     problem.numerics = support::nodal_numerics(precision);
     problem.numerics.cfl = cfl;
+    problem.numerics.subcycling = subcycling;
+    if (subcycling) {
+        problem.grid.levels = 2;
+        problem.zones = {support::zone(geometry::box({-1, 1, -1}, {3, 2, 3}), 1)};
+    }
     Job run = support::started(problem);
     support::restart_with(
         [](particles::Particles& particles) {
@@ -141,6 +146,16 @@ TEST(Energy, a_free_elastic_body_keeps_its_energy_in_the_nodal_scheme)
         EXPECT_LT(std::abs(coarse.last - coarse.first), 0.01);
         EXPECT_LT(std::abs(fine.last - fine.first), 0.0025);
     }
+}
+
+TEST(Energy, a_free_elastic_body_keeps_its_energy_with_subcycling)
+{
+    const Vibration coarse = vibration(0.5, solver::Precision::f64, true),
+                    fine = vibration(0.125, solver::Precision::f64, true);
+    EXPECT_LT(coarse.largest, 0.3);
+    EXPECT_NEAR(coarse.largest / fine.largest, 4, 0.8);
+    EXPECT_LT(std::abs(coarse.last - coarse.first), 0.01);
+    EXPECT_LT(std::abs(fine.last - fine.first), 0.0025);
 }
 
 // A.4, 12: a moving frame reproduces the run at rest. The total formulation never sees the grid move; in the updated
@@ -240,6 +255,32 @@ TEST(StableTimeStep, shrinks_with_compression_of_the_nodes)
         stretch_to(1);
         run.state.levels.motions(0)[grid::tile_index(1, 1, 1)].velocity[1] = std::numeric_limits<Real>::quiet_NaN();
         EXPECT_THROW(support::advance(2 * solver::time_step_interval, run), core::NumericalError);
+    }
+}
+
+// Each level is held to its own step: squeezed coarse cells shorten the step like fine ones.
+TEST(StableTimeStep, of_every_level_with_subcycling)
+{
+    solver::Problem problem = support::bar(support::metal(), 0, 0);
+    problem.grid.levels = 2;
+    problem.zones = {support::zone(geometry::box({-1, 1, -1}, {3, 2, 3}), 1)};
+    problem.numerics = support::subcycled_numerics(solver::Precision::f64);
+    Job run = support::started(problem);
+    const Real transit = 0.25 / run.prepared.wave_speed;
+    EXPECT_NEAR(solver::stable_time_step(run.problem, run.prepared, run.state), 0.5 * transit, 1e-15);
+    support::advance(1, run);
+    EXPECT_NEAR(run.state.clock.dt, transit, 1e-15);
+    EXPECT_EQ(run.state.clock.time, run.state.clock.dt);
+    for (const int level : {0, 1}) {
+        Job squeezed = run;
+        grid::Levels& levels = squeezed.state.levels;
+        const Real spacing = levels.spacing(level);
+        for (std::size_t n = levels.first_leaf(level); n < levels.first_leaf(level + 1); ++n)
+            for (int node = 0; node < grid::tile_nodes; ++node)
+                levels.motions(n)[node].change[1] =
+                    -0.5 * spacing * (levels.leaves[n].origin[1] + node / grid::tile_side % grid::tile_side);
+        EXPECT_NEAR(solver::stable_time_step(squeezed.problem, squeezed.prepared, squeezed.state),
+                    solver::subcycled_step_share * 0.5 * transit, 1e-9);
     }
 }
 

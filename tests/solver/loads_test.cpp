@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <set>
+
 using solver::Ramp;
 using support::Job;
 
@@ -130,6 +132,36 @@ TEST(Loads, reactions_are_the_momentum_that_pins_give_the_body)
         EXPECT_GT(momentum.norm(), 0.01 * mass_of(run));
         EXPECT_LT((momentum - sum_of_impulses(run)).norm(), tolerance * mass_of(run));
     });
+}
+
+// Sub-cycled: a pin that holds nodes of two levels, some of them masters, and a region on the coarsest of three.
+TEST(Loads, reactions_are_the_momentum_of_a_subcycled_body)
+{
+    for (const int levels : {2, 3})
+        for (const auto precision : {solver::Precision::f64, solver::Precision::mixed}) {
+            solver::Problem problem = support::plate(support::metal(), 5, 0.01);
+            problem.loads[1] = support::load("bottom", support::beyond(1, -3, -1), {1.0, 2.0, {}}, 0.01);
+            problem.numerics = support::subcycled_numerics(precision);
+            problem.grid.levels = levels;
+            problem.zones = {support::zone(geometry::box({0.3, -5, -1}, {4, 5, 2}), 1)};
+            if (levels == 3) problem.zones.push_back(support::zone(geometry::box({1.2, -1, -1}, {4, 5, 2}), 2));
+            Job run = support::started(problem);
+            std::set<int> held;
+            for (const grid::NodeAddress& at : run.derived.load_nodes[0].node)
+                held.insert(run.state.levels.leaves[static_cast<std::size_t>(at.leaf)].level);
+            EXPECT_GT(held.size(), 1U);
+            support::advance(40, run);
+            const Vec3 momentum = momentum_of(run);
+            EXPECT_GT(momentum.norm(), 0.01 * mass_of(run));
+            EXPECT_LT((momentum - sum_of_impulses(run)).norm(),
+                      (precision == solver::Precision::mixed ? 1e-6 : 1e-12) * mass_of(run));
+            // Held nodes have the velocity and the displacement of their load, on every level.
+            for (const grid::NodeAddress& at : run.derived.load_nodes[1].node) {
+                const grid::NodeMotion& motion = run.state.levels.motions(static_cast<std::size_t>(at.leaf))[at.node];
+                EXPECT_EQ(motion.velocity[1], 2);
+                EXPECT_NEAR(motion.change[1], run.state.loads[1].displacement[1], 1e-14);
+            }
+        }
 }
 
 TEST(Loads, a_symmetric_specimen_loads_both_pins_alike)

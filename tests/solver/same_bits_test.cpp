@@ -4,6 +4,7 @@
 #include "tests/solver/same_bits.h"
 
 #include "solver/audit.h"
+#include "solver/stable_time_step.h"
 #include "tests/support/runs.h"
 
 #include <gtest/gtest.h>
@@ -75,6 +76,8 @@ const Scheme schemes[] = {
     {"total, nonlocal", support::numerics(solver::Formulation::total), 0.4},
     {"nodal, nonlocal", support::nodal_numerics(solver::Precision::f64), 0.4},
     {"nodal mixed, nonlocal", support::nodal_numerics(solver::Precision::mixed), 0.4},
+    {"sub-cycled", support::subcycled_numerics(solver::Precision::f64)},
+    {"sub-cycled mixed", support::subcycled_numerics(solver::Precision::mixed)},
 };
 
 /// Everything two runs have in common, in stored order.
@@ -156,7 +159,7 @@ TEST(SameBits, for_any_number_of_levels_that_carry_the_same_cells)
             // Seeding numbers the particles parent cell by parent cell; the order inside a cell is by number.
             ASSERT_TRUE(test::same_bits(nested.state.particles.rest_position[0], first_rest_x));
             nested.state.particles.id = first_id;
-            support::advance(120, nested);
+            support::advance(120 / solver::substeps(problem), nested);
             EXPECT_EQ(single.state.clock.time, nested.state.clock.time);
             expect_same(single, nested);
         }

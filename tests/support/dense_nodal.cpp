@@ -38,14 +38,14 @@ std::optional<Cell> coarse_cell(const DenseNodal& mpm, int level, const Node& at
     return {};
 }
 
-/// Call visit(free node, weight) for what moves the node `at` of a level.
+/// Call visit(free node, its level, weight) for what moves the node `at` of a level.
 template <class Visit>
 void resolve(const DenseNodal& mpm, int level, const Node& at, Real weight, const Visit& visit)
 {
     const std::optional<Cell> coarse = coarse_cell(mpm, level, at);
     if (!coarse) {
         const int shift = mpm.levels - 1 - level;
-        return visit(Node{at[0] << shift, at[1] << shift, at[2] << shift}, weight);
+        return visit(Node{at[0] << shift, at[1] << shift, at[2] << shift}, level, weight);
     }
     for (int c = 0; c < 8; ++c) {
         Real part = weight;
@@ -75,8 +75,8 @@ std::vector<DenseNodal::Share> basis_of(const DenseNodal& mpm, const NodalPoint&
         }
         const Vec3 slope(d[0] * w[1] * w[2], w[0] * d[1] * w[2], w[0] * w[1] * d[2]);
         resolve(mpm, p.level, {cell[1] + int(bit[0]), cell[2] + int(bit[1]), cell[3] + int(bit[2])}, 1,
-                [&](const Node& node, Real weight) {
-                    shares.push_back({node, weight * w.prod(), weight * slope});
+                [&](const Node& node, int level, Real weight) {
+                    shares.push_back({node, level, weight * w.prod(), weight * slope});
                 });
     }
     return shares;
@@ -94,21 +94,34 @@ Mat flux_of(const NodalPoint& p)
     return flux;
 }
 
-void move_nodes(DenseNodal& mpm, Real dt)
+/// Points of every level, or of one.
+bool is_on(int level, const NodalPoint& p)
+{
+    return level == DenseNodal::all_levels || p.level == level;
+}
+
+/// v += dt f / m by the points of one level, and dt g on its nodes.
+void push(DenseNodal& mpm, Real dt, int level)
 {
     for (auto& [key, node] : mpm.nodes) node.force.setZero();
     for (std::size_t p = 0; p < mpm.points.size(); ++p) {
+        if (!is_on(level, mpm.points[p])) continue;
         const Mat flux = flux_of(mpm.points[p]);
         for (const DenseNodal::Share& s : mpm.basis[p])
             for (int i = 0; i < 3; ++i)
                 for (int j = 0; j < 3; ++j) mpm.nodes[s.node].force[i] -= flux(i, j) * s.slope[j];
     }
     for (auto& [key, node] : mpm.nodes) {
-        node.velocity += dt * (node.force / node.mass + mpm.gravity);
+        node.velocity += dt * node.force / node.mass;
+        if (level == DenseNodal::all_levels || node.level == level) node.velocity += dt * mpm.gravity;
         for (const grid::WallPlane& wall : mpm.walls)
             if (key[std::size_t(wall.axis)] == wall.node0 << (mpm.levels - 1)) node.velocity[wall.axis] = 0;
-        node.displacement += dt * node.velocity;
     }
+}
+
+void drift(DenseNodal& mpm, Real dt)
+{
+    for (auto& [key, node] : mpm.nodes) node.displacement += dt * node.velocity;
 }
 
 /// How a point deforms in a step.
@@ -119,19 +132,20 @@ struct Strain
     Real volume;   // mm^3, there
 };
 
-Strain deform(const DenseNodal& mpm, Real dt, std::size_t p, Mat& f)
+Strain deform(const DenseNodal& mpm, std::size_t p, Mat& f)
 {
+    const Mat before = f;
     Mat rate{}, middle{};
     f = core::identity<Real>();
     for (const DenseNodal::Share& s : mpm.basis[p]) {
         const DenseNodal::NodeState& node = mpm.nodes.at(s.node);
         for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) {
-                rate(i, j) += dt * node.velocity[i] * s.slope[j];
-                f(i, j) += node.displacement[i] * s.slope[j];
-            }
+            for (int j = 0; j < 3; ++j) f(i, j) += node.displacement[i] * s.slope[j];
     }
-    for (std::size_t n = 0; n < 9; ++n) middle.m[n] = f.m[n] - rate.m[n] / 2;
+    for (std::size_t n = 0; n < 9; ++n) {
+        rate.m[n] = f.m[n] - before.m[n];
+        middle.m[n] = f.m[n] - rate.m[n] / 2;
+    }
     const Real ratio = core::determinant(middle);
     const Mat cof = core::cofactor(middle); // inverse = cof^T / det
     const Mat transposed{
@@ -219,6 +233,42 @@ void start_cracks(const DenseNodal& mpm, const std::vector<std::size_t>& cell, c
                                    {l, nearest}, spacing, mpm.time);
     }
 }
+
+/// Strain, stress and cracks of the points of a level after its step of dt.
+void update(DenseNodal& mpm, Real dt, int level)
+{
+    std::vector<NodalPoint>& points = mpm.points;
+    std::vector<Strain> strain(points.size());
+    for (std::size_t p = 0; p < points.size(); ++p)
+        if (is_on(level, points[p])) strain[p] = deform(mpm, p, points[p].deformation_gradient);
+
+    std::vector<std::optional<core::Crack>> fresh(points.size());
+    for (const auto& [key, cell] : mpm.cells) {
+        if (level != DenseNodal::all_levels && key[0] != level) continue;
+        const Real spacing = mpm.spacing0 / (1 << key[0]);
+        Real volume = 0, dilated = 0;
+        for (const std::size_t n : cell) {
+            if (points[n].crack || !mpm.laws.constants[points[n].material].averaged_dilatation) continue;
+            volume += strain[n].volume;
+            dilated += strain[n].volume * trace(strain[n].increment);
+        }
+        for (const std::size_t n : cell) {
+            NodalPoint& p = points[n];
+            if (p.crack) {
+                separate(dt, strain[n], spacing, p, mpm);
+                continue;
+            }
+            const transfer::LawConstants& law = mpm.laws.constants[p.material];
+            Sym e = core::symmetric_part(strain[n].increment);
+            const Real shift = law.averaged_dilatation ? (dilated / volume - core::trace(e)) / 3 : Real(0);
+            for (int a = 0; a < 3; ++a) e[a] += shift;
+            yield(law, strain[n], e, p, mpm);
+        }
+        start_cracks(mpm, cell, strain, dt, spacing, fresh);
+    }
+    for (std::size_t p = 0; p < points.size(); ++p)
+        if (fresh[p]) points[p].crack = fresh[p];
+}
 } // namespace
 
 void DenseNodal::start()
@@ -227,6 +277,7 @@ void DenseNodal::start()
     for (const NodalPoint& p : points) {
         basis.push_back(basis_of(*this, p));
         for (const Share& s : basis.back()) {
+            nodes[s.node].level = s.level;
             nodes[s.node].mass += s.weight * p.mass;
             nodes[s.node].velocity += s.weight * p.mass * p.velocity;
         }
@@ -236,37 +287,29 @@ void DenseNodal::start()
 
 void DenseNodal::step(Real dt)
 {
-    move_nodes(*this, dt);
+    push(*this, dt, all_levels);
+    drift(*this, dt);
     time += dt;
-    std::vector<Strain> strain;
-    for (std::size_t p = 0; p < points.size(); ++p)
-        strain.push_back(deform(*this, dt, p, points[p].deformation_gradient));
+    update(*this, dt, all_levels);
+}
 
-    std::vector<std::optional<core::Crack>> fresh(points.size());
-    for (const auto& [key, cell] : cells) {
-        const Real spacing = spacing0 / (1 << key[0]);
-        Real volume = 0, dilated = 0;
-        for (const std::size_t n : cell) {
-            if (points[n].crack || !laws.constants[points[n].material].averaged_dilatation) continue;
-            volume += strain[n].volume;
-            dilated += strain[n].volume * trace(strain[n].increment);
+void DenseNodal::nested_step(Real dt, Slow slow)
+{
+    for (int n = 0; n < 1 << (levels - 1); ++n) {
+        for (int l = 0; l < levels; ++l) {
+            const int substeps = 1 << (levels - 1 - l);
+            if (slow == Slow::frozen)
+                push(*this, dt, l); // stress has not changed since the beginning of the level's step
+            else if (n % substeps == 0)
+                push(*this, substeps * dt, l);
         }
-        for (const std::size_t n : cell) {
-            NodalPoint& p = points[n];
-            if (p.crack) {
-                separate(dt, strain[n], spacing, p, *this);
-                continue;
-            }
-            const transfer::LawConstants& law = laws.constants[p.material];
-            Sym e = core::symmetric_part(strain[n].increment);
-            const Real shift = law.averaged_dilatation ? (dilated / volume - core::trace(e)) / 3 : Real(0);
-            for (int a = 0; a < 3; ++a) e[a] += shift;
-            yield(law, strain[n], e, p, *this);
+        drift(*this, dt);
+        time += dt;
+        for (int l = 0; l < levels; ++l) {
+            const int substeps = 1 << (levels - 1 - l);
+            if ((n + 1) % substeps == 0) update(*this, substeps * dt, l);
         }
-        start_cracks(*this, cell, strain, dt, spacing, fresh);
     }
-    for (std::size_t p = 0; p < points.size(); ++p)
-        if (fresh[p]) points[p].crack = fresh[p];
 }
 
 Vec3 DenseNodal::displacement(std::size_t point) const

@@ -33,6 +33,7 @@ struct DenseNodal
 
     struct NodeState
     {
+        int level = 0; // whose own node it is
         Real mass = 0;
         Vec3 force = Vec3::Zero(), velocity = Vec3::Zero(), displacement = Vec3::Zero();
     };
@@ -40,9 +41,12 @@ struct DenseNodal
     struct Share
     {
         Node node;
+        int level; // of the node
         Real weight;
         Vec3 slope; // 1/mm
     };
+
+    static constexpr int all_levels = -1;
 
     Real spacing0 = 0;
     int levels = 1;
@@ -56,8 +60,17 @@ struct DenseNodal
     std::vector<std::vector<Share>> basis;          // [point]
     Real time = 0, plastic_work = 0, decohesion_work = 0;
 
+    /// How a slow force reaches the nodes: all of it at the beginning of its step, or the same in every fine step.
+    enum class Slow
+    {
+        impulse,
+        frozen, // the natural wrong way: unstable (methods.md A.7)
+    };
+
     void start();
     void step(Real dt);
+    /// Sub-cycled step of the coarsest level; dt is that of the finest.
+    void nested_step(Real dt, Slow slow = Slow::impulse);
     Vec3 displacement(std::size_t point) const;
     Vec3 velocity(std::size_t point) const;
 };

@@ -6,6 +6,7 @@
 #include "particles/order.h"
 #include "particles/tensors.h"
 
+#include <bit>
 #include <stdexcept>
 
 namespace support
@@ -20,6 +21,14 @@ void keep(const Wanted& wanted, particles::Particles& particles)
     for (std::uint32_t p = 0; p < particles.size(); ++p)
         if (wanted(p)) kept.push_back(p);
     particles::reorder(kept, particles);
+}
+
+void add_work(LatticeRun& run)
+{
+    for (const transfer::LeafWork& work : run.scene.leaf_work) {
+        run.plastic_work += work.plastic;
+        run.decohesion_work += work.decohesion;
+    }
 }
 } // namespace
 
@@ -60,13 +69,14 @@ void stir(std::uint64_t seed, Real stress, Real velocity, Scene& scene)
 LatticeRun lattice_run(Scene scene, transfer::Precision precision, const std::vector<grid::WallPlane>& walls,
                        const Vec3& gravity)
 {
-    LatticeRun run{std::move(scene), {}, walls, gravity, 0, 0};
+    LatticeRun run{std::move(scene), {}, walls, gravity, 0, 0, {}};
     grid::Levels& levels = run.scene.levels;
     grid::start_nodes(walls, std::vector<Real>(static_cast<std::size_t>(levels.count), Real(0)), levels);
     grid::prolong_motion(levels);
     grid::fill_motion_halos(levels);
     if (!transfer::enter_lattice(precision, levels, run.scene.particles, run.lattice))
         throw std::logic_error("the scene's particles are not on the lattice");
+    run.fast_nodes = grid::find_fast_nodes(levels, {});
     return run;
 }
 
@@ -75,15 +85,34 @@ void advance(Real dt, LatticeRun& run)
     Scene& scene = run.scene;
     scene.options.dt = dt;
     scene.options.time += dt;
-    grid::advance_nodes(run.walls, run.gravity, dt, scene.levels);
+    grid::advance_nodes(run.walls, run.gravity, 0, {dt}, scene.levels);
     grid::prolong_motion(scene.levels);
     grid::fill_motion_halos(scene.levels);
     scene.leaf_work.assign(scene.levels.leaves.size(), {});
     transfer::advance_lattice(scene.options, scene.laws, run.lattice, scene.particles, scene.levels, scene.leaf_work);
-    for (const transfer::LeafWork& work : scene.leaf_work) {
-        run.plastic_work += work.plastic;
-        run.decohesion_work += work.decohesion;
+    add_work(run);
+}
+
+void advance_subcycled(Real dt, LatticeRun& run)
+{
+    Scene& scene = run.scene;
+    const int finest = scene.levels.count - 1;
+    grid::LevelSteps steps{dt, 0, finest, true};
+    scene.leaf_work.assign(scene.levels.leaves.size(), {});
+    for (unsigned n = 0; n < 1U << finest; ++n) {
+        scene.options.time += dt;
+        steps.first = n == 0 ? 0 : finest - std::countr_zero(n);
+        grid::advance_nodes(run.walls, run.gravity, 0, steps, scene.levels);
+        grid::drift_fast_nodes(dt, scene.levels, run.fast_nodes);
+        steps.first = finest - std::countr_zero(n + 1);
+        grid::prolong_displacement(steps, scene.levels);
+        grid::average_fast_nodes(steps, scene.levels, run.fast_nodes);
+        grid::fill_motion_halos(scene.levels, steps.first);
+        transfer::advance_lattice(steps, scene.options, scene.laws, run.lattice, scene.particles, scene.levels,
+                                  scene.leaf_work);
+        grid::release_fast_nodes(steps, scene.levels, run.fast_nodes);
     }
+    add_work(run);
 }
 
 DenseNodal dense_nodal(const Scene& scene, const std::vector<grid::WallPlane>& walls, const Vec3& gravity)

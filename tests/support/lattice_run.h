@@ -1,6 +1,7 @@
 /// The nodal scheme below the solver: a scene whose particles are on the lattice, and its steps.
 #pragma once
 
+#include "grid/fast_nodes.h"
 #include "tests/support/dense_nodal.h"
 #include "tests/support/scene.h"
 #include "transfer/lattice.h"
@@ -15,6 +16,7 @@ struct LatticeRun
     Vec3 gravity = Vec3::Zero(); // mm/ms^2
     Real plastic_work = 0;       // mJ, of all steps
     Real decohesion_work = 0;    // mJ, likewise
+    grid::FastNodes fast_nodes;  // sub-cycling only
 };
 
 /// Particles on the lattice of a topology as a cut body has them: one in five is missing, and one cell in ten is empty;
@@ -29,6 +31,9 @@ LatticeRun lattice_run(Scene scene, transfer::Precision precision, const std::ve
                        const Vec3& gravity = Vec3::Zero());
 
 void advance(Real dt, LatticeRun& run);
+
+/// Sub-cycled step of the coarsest level; dt is that of the finest.
+void advance_subcycled(Real dt, LatticeRun& run);
 
 /// The same scene, not yet started.
 DenseNodal dense_nodal(const Scene& scene, const std::vector<grid::WallPlane>& walls = {},

@@ -78,6 +78,14 @@ inline solver::Numerics nodal_numerics(solver::Precision precision)
     return n;
 }
 
+/// The same, sub-cycled.
+inline solver::Numerics subcycled_numerics(solver::Precision precision)
+{
+    solver::Numerics n = nodal_numerics(precision);
+    n.subcycling = true;
+    return n;
+}
+
 /// E = 1000 MPa, nu = 0.3, 1e-3 g/mm^3: c_d = 1160 mm/ms.
 inline material::Material metal()
 {

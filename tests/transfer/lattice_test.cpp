@@ -8,6 +8,7 @@
 #include "particles/tensors.h"
 #include "tests/support/lattice_run.h"
 #include "transfer/cell_squeeze.h"
+#include "transfer/lattice_squeeze.h"
 #include "transfer/solid_share.h"
 
 #include <gtest/gtest.h>
@@ -455,6 +456,8 @@ TEST(Lattice, a_survey_is_that_of_the_particles)
         for (int n = 0; n < 120; ++n) support::advance(dt, run);
         std::vector<transfer::LatticeSurvey> survey;
         transfer::survey_lattice(run.scene.laws, run.lattice, run.scene.particles, run.scene.levels, survey);
+        std::vector<transfer::LatticeSurvey> without_energy;
+        transfer::survey_squeeze(run.scene.laws, run.lattice, run.scene.particles, run.scene.levels, without_energy);
         const particles::Particles particles = support::filled(run);
         ASSERT_EQ(survey.size(), run.scene.levels.leaves.size());
         for (std::size_t n = 0; n < survey.size(); ++n) {
@@ -475,6 +478,8 @@ TEST(Lattice, a_survey_is_that_of_the_particles)
             }
             EXPECT_NEAR(survey[n].elastic, elastic, tolerance * elastic);
             EXPECT_NEAR(survey[n].squeeze, squeeze, tolerance * squeeze);
+            EXPECT_EQ(without_energy[n].squeeze, survey[n].squeeze);
+            EXPECT_EQ(without_energy[n].worst, survey[n].worst);
         }
     }
 }
