@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct Options
     int cells = 50;
     int steps = 15;
     std::vector<int> threads;
+    std::string basis; // empty: all
 };
 
 const std::vector<BenchCase>& schemes()
@@ -113,6 +115,7 @@ int bench(const Options& options)
                        "form.", "upd.", "tran.", "prec.", "levels", "particles", "M steps/s", "B/step", "flop/step",
                        "roof");
         for (const BenchCase& scheme : schemes()) {
+            if (!options.basis.empty() && options.basis != name(scheme.basis)) continue;
             const BenchResult r = measured(scheme, options, t, limits);
             all.push_back(entry(r, limits));
             if (!options.json)
@@ -140,6 +143,8 @@ void add_bench(CLI::App& program, Command& chosen)
         ->check(CLI::Range(1, 10000));
     command->add_option("--threads", options->threads, "thread counts (default: 1 and all)")
         ->check(CLI::PositiveNumber);
+    command->add_option("--basis", options->basis, "only schemes of this basis")
+        ->check(CLI::IsMember({"trilinear", "gimp"}));
     command->callback([&chosen, options] { chosen = [options] { return bench(*options); }; });
 }
 } // namespace app
