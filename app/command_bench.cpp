@@ -24,7 +24,7 @@ struct Options
     int cells = 50;
     int steps = 15;
     std::vector<int> threads;
-    std::string transfer, precision; // only schemes with these names, if not empty
+    std::string basis, formulation, stress_update, transfer, precision; // only schemes with these names, if not empty
 };
 
 const std::vector<BenchCase>& schemes()
@@ -68,8 +68,10 @@ const char* name(solver::Basis b)
 
 bool wanted(const BenchCase& scheme, const Options& options)
 {
-    return (options.transfer.empty() || options.transfer == name(scheme.transfer)) &&
-           (options.precision.empty() || options.precision == name(scheme.precision));
+    const auto fits = [](const std::string& word, const char* own) { return word.empty() || word == own; };
+    return fits(options.basis, name(scheme.basis)) && fits(options.formulation, name(scheme.formulation)) &&
+           fits(options.stress_update, name(scheme.stress_update)) && fits(options.transfer, name(scheme.transfer)) &&
+           fits(options.precision, name(scheme.precision));
 }
 
 BenchResult measured(const BenchCase& scheme, const Options& options, int threads,
@@ -149,6 +151,12 @@ void add_bench(CLI::App& program, Command& chosen)
         ->check(CLI::Range(1, 10000));
     command->add_option("--threads", options->threads, "thread counts (default: 1 and all)")
         ->check(CLI::PositiveNumber);
+    command->add_option("--basis", options->basis, "only schemes of this basis")
+        ->check(CLI::IsMember({"trilinear", "gimp"}));
+    command->add_option("--formulation", options->formulation, "only schemes of this formulation")
+        ->check(CLI::IsMember({"total", "updated"}));
+    command->add_option("--stress-update", options->stress_update, "only schemes with this stress update")
+        ->check(CLI::IsMember({"usl", "musl"}));
     command->add_option("--transfer", options->transfer, "only schemes with this transfer")
         ->check(CLI::IsMember({"flip", "apic", "nodal"}));
     command->add_option("--precision", options->precision, "only schemes with this precision")

@@ -1,4 +1,5 @@
 #include "io/case_draft.h"
+#include "solver/external_force.h"
 
 #include <fmt/format.h>
 
@@ -205,6 +206,14 @@ void check_gauge(Draft& draft)
     }
 }
 
+void check_subcycling(Draft& draft)
+{
+    if (!draft.problem.numerics.subcycling || !solver::has_external_forces(draft.problem)) return;
+    draft.diagnostics.error(draft.root.find("numerics")->find("subcycling")->place,
+                            "subcycling = true cannot be combined with surface loads or body forces of a motion",
+                            "their impulses are not split between levels");
+}
+
 bool all_sound(const std::vector<Origin>& origins)
 {
     return std::all_of(origins.begin(), origins.end(), [](const Origin& origin) { return origin.sound; });
@@ -221,6 +230,7 @@ void check_case(Draft& draft)
     check_zones(draft);
     check_loads(draft, all_sound(draft.materials) && !draft.materials.empty());
     check_surface_loads(draft);
+    check_subcycling(draft);
     check_gauge(draft);
 }
 } // namespace io

@@ -80,11 +80,11 @@ void advance_and_scatter(const PassOptions& options, const LawTable& laws, Stray
 {
     std::vector<LeafOutcome> outcome(levels.leaves.size());
     if (uses_boxes(options)) {
-        advance_boxes(options, laws, strays, levels, particles, outcome);
+        advance_boxes(options, laws, strays, particles, levels, outcome);
         add_work(outcome, leaf_work);
         record_onsets(outcome, particles);
         assign(all_away(outcome, strays), particles, levels, strays);
-        return scatter_boxes(options, laws, particles, levels, strays);
+        return finish_boxes(options, laws, outcome, strays, particles, levels);
     }
     // Strays first: they still need the motion tiles, and a leaf's scatter must see only particles at home.
     advance_strays(options, laws, strays, levels, particles, outcome);

@@ -8,55 +8,79 @@ namespace transfer
 namespace
 {
 template <Transfer T, StressUpdate S>
-void advance_leaf(const BoxCutter& cutter, const LawTable& laws, std::size_t leaf, const grid::Levels& levels,
-                  particles::Particles& particles, LeafOutcome& outcome)
+void advance_leaf(const PassOptions& options, const LawTable& laws, std::size_t leaf, const ReachMap& map,
+                  const grid::Levels& levels, const Boxes& boxes, particles::Particles& particles, LeafOutcome& outcome)
 {
     constexpr bool last = S == StressUpdate::usl;
-    constexpr BoxWant want = last && T == Transfer::apic ? BoxWant::affine : BoxWant::slopes;
+    constexpr BoxRead read = !last                 ? BoxRead::change_slopes
+                             : T == Transfer::apic ? BoxRead::affine
+                                                   : BoxRead::velocity_slopes;
     const std::uint32_t* start = levels.cell_start.data() + leaf * grid::leaf_cells;
-    const LeafFrame frame = leaf_frame(levels, leaf);
-    BoxParts parts;
+    const LeafFrame leaf_of_cells = leaf_frame(levels, leaf);
+    const BoxFrame frame = box_frame(options, levels, leaf);
+    ReachTile<grid::NodeMotion> tile;
+    read_motion(levels, leaf, map, tile);
+    BoxSource source{levels, map, tile.node, boxes.cut[leaf]};
     for (int c = 0; c < grid::leaf_cells; ++c) {
         if (start[c] == start[c + 1]) continue;
-        const CellFrame cell = cell_frame(frame, c);
+        const CellFrame cell = cell_frame(leaf_of_cells, c);
         const auto move = [&](std::size_t p, int count, detail::Kinematics& k) {
+            BoxWeights weights;
+            box_weights<read == BoxRead::affine>(frame, particles, p, count, weights);
             BoxChunk chunk;
-            gather_boxes<want>(cutter, particles, p, count, leaf, parts, chunk);
+            gather_boxes<read>(weights, count, source, chunk);
             const auto x = load_all<core::Vec<Lanes>>(particles.position, p, count);
             k.here = present<Formulation::updated>(Visitors::everyone, particles, p, count);
             const core::Vec<Lanes> velocity{
                 {Lanes::load(chunk.value[0]), Lanes::load(chunk.value[1]), Lanes::load(chunk.value[2])}};
-            core::Mat<Lanes> gradient = gradient_lanes(chunk, last ? velocity_column : change_column);
+            core::Mat<Lanes> gradient = matrix_lanes(chunk.gradient);
             core::Mat<Lanes> affine;
-            if constexpr (want == BoxWant::affine) affine = affine_lanes(chunk);
+            if constexpr (read == BoxRead::affine) affine = matrix_lanes(chunk.affine);
             const auto change = [&](int a) { return Lanes::load(chunk.value[change_column + a]); };
-            detail::carry<Formulation::updated, T, S>(cutter.options, laws, cell, Visitors::everyone, x, velocity,
-                                                      gradient, affine, change, p, count, particles, outcome, k);
+            detail::carry<Formulation::updated, T, S>(options, laws, cell, Visitors::everyone, x, velocity, gradient,
+                                                      affine, change, p, count, particles, outcome, k);
         };
-        advance_group(cutter.options, laws, cell, start[c], start[c + 1], particles, outcome, move);
+        advance_group(options, laws, cell, start[c], start[c + 1], particles, outcome, move);
     }
 }
 
 template <Transfer T, StressUpdate S>
-void advance_with(const BoxCutter& cutter, const LawTable& laws, const grid::Levels& levels,
-                  particles::Particles& particles, std::vector<LeafOutcome>& outcome)
+void advance_with(const PassOptions& options, const LawTable& laws, Strays& strays, particles::Particles& particles,
+                  grid::Levels& levels, std::vector<LeafOutcome>& outcome)
 {
-    core::parallel_for(levels.leaves.size(),
-                       [&](std::size_t n) { advance_leaf<T, S>(cutter, laws, n, levels, particles, outcome[n]); });
+    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+        ReachMap map;
+        map_reach(options, levels, n, map);
+        advance_leaf<T, S>(options, laws, n, map, levels, strays.boxes, particles, outcome[n]);
+        scatter_leaf_boxes(options, laws, strays.refinement, particles, n, map, levels, strays.boxes);
+    });
 }
 } // namespace
 
-void advance_boxes(const PassOptions& options, const LawTable& laws, const Strays& strays, const grid::Levels& levels,
-                   particles::Particles& particles, std::vector<LeafOutcome>& outcome)
+void advance_boxes(const PassOptions& options, const LawTable& laws, Strays& strays, particles::Particles& particles,
+                   grid::Levels& levels, std::vector<LeafOutcome>& outcome)
 {
     using enum Transfer;
     using enum StressUpdate;
-    const BoxCutter cutter(options, levels, strays.refinement);
     if (options.transfer == apic)
-        options.stress_update == usl ? advance_with<apic, usl>(cutter, laws, levels, particles, outcome)
-                                     : advance_with<apic, musl>(cutter, laws, levels, particles, outcome);
+        options.stress_update == usl ? advance_with<apic, usl>(options, laws, strays, particles, levels, outcome)
+                                     : advance_with<apic, musl>(options, laws, strays, particles, levels, outcome);
     else
-        options.stress_update == usl ? advance_with<flip, usl>(cutter, laws, levels, particles, outcome)
-                                     : advance_with<flip, musl>(cutter, laws, levels, particles, outcome);
+        options.stress_update == usl ? advance_with<flip, usl>(options, laws, strays, particles, levels, outcome)
+                                     : advance_with<flip, musl>(options, laws, strays, particles, levels, outcome);
+}
+
+void finish_boxes(const PassOptions& options, const LawTable& laws, const std::vector<LeafOutcome>& outcome,
+                  Strays& strays, const particles::Particles& particles, grid::Levels& levels)
+{
+    // A cracked particle leaves its cell's mean pressure: its leaf's sums, made while it was intact, are out of date.
+    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+        if (outcome[n].onset.empty()) return;
+        ReachMap map;
+        map_reach(options, levels, n, map);
+        scatter_leaf_boxes(options, laws, strays.refinement, particles, n, map, levels, strays.boxes);
+    });
+    sort_arrivals(strays);
+    deliver_boxes(options, strays.boxes, levels);
 }
 } // namespace transfer

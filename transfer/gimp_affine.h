@@ -11,8 +11,10 @@
 /// and on the way to the grid collect T_i = sum_p m_p w_i C_p (grid/hanging.h).
 #pragma once
 
-#include "transfer/gimp_lines.h"
+#include "transfer/gimp_part.h"
 #include "transfer/hanging_cell.h"
+
+#include <algorithm>
 
 namespace transfer
 {
@@ -23,30 +25,36 @@ struct BoxMoments
     core::Mat<Real> hanging{}; // mm^2/ms
 };
 
-/// Add one part.
-/// @param hangs  the leaf has hanging cells: the part lies in one cell
-inline void add_moments(const BoxPart& part, const grid::Levels& levels, bool hangs, BoxMoments& moments)
+/// The hanging corners of the cell a part lies in: one cell of the range, or none.
+inline HangingRange hanging_corners(const BoxPart& part, const grid::Levels& levels)
 {
-    Real total[3] = {0, 0, 0}, square[3] = {0, 0, 0};
-    for (int a = 0; a < 3; ++a)
-        for (int n = 0; n < part.axis[a].count; ++n) {
-            const BoxAxis& axis = part.axis[a];
-            total[a] += axis.weight[n];
-            square[a] += axis.weight[n] * axis.arm[n] * axis.arm[n];
-        }
-    for (std::size_t a = 0; a < 3; ++a) moments.inertia[a] += square[a] * total[(a + 1) % 3] * total[(a + 2) % 3];
-    if (!hangs) return;
     const auto leaf = static_cast<std::size_t>(part.leaf);
-    const HangingRange range =
-        narrowed(hanging_cells(levels, leaf), leaf * grid::leaf_cells + static_cast<std::size_t>(part.cell));
+    return narrowed(hanging_cells(levels, leaf), leaf * grid::leaf_cells + static_cast<std::size_t>(part.cell));
+}
+
+inline Real corner_weight(const BoxPart& part, std::size_t corner)
+{
+    return part.axis[0].weight[corner >> 2] * part.axis[1].weight[corner >> 1 & 1] * part.axis[2].weight[corner & 1];
+}
+
+/// Add one part of a cut box.
+inline void add_moments(const BoxPart& part, const grid::Levels& levels, BoxMoments& moments)
+{
+    Real total[3], square[3];
+    for (int a = 0; a < 3; ++a) {
+        const BoxAxis& axis = part.axis[a];
+        total[a] = axis.weight[0] + axis.weight[1];
+        square[a] = axis.weight[0] * axis.arm[0] * axis.arm[0] + axis.weight[1] * axis.arm[1] * axis.arm[1];
+    }
+    for (std::size_t a = 0; a < 3; ++a) moments.inertia[a] += square[a] * total[(a + 1) % 3] * total[(a + 2) % 3];
+    const HangingRange range = hanging_corners(part, levels);
     if (range.begin == range.end) return;
     const grid::LevelInterface& face = *range.face;
-    const Real spacing = levels.spacing(levels.leaves[leaf].level);
+    const Real spacing = levels.spacing(levels.leaves[static_cast<std::size_t>(part.leaf)].level);
     for (std::size_t corner = 0; corner < 8; ++corner) {
         const std::int32_t slave = face.hanging.slave[range.begin][corner];
         if (slave < 0) continue;
-        const Real w =
-            part.axis[0].weight[corner >> 2] * part.axis[1].weight[corner >> 1 & 1] * part.axis[2].weight[corner & 1];
+        const Real w = corner_weight(part, corner);
         const auto s = static_cast<std::size_t>(slave);
         for (auto e = static_cast<std::size_t>(face.row_start[s]); e < static_cast<std::size_t>(face.row_start[s + 1]);
              ++e) {
@@ -63,31 +71,27 @@ inline void add_moments(const BoxPart& part, const grid::Levels& levels, bool ha
     }
 }
 
-/// C of a whole box, from a sample with moments.
-inline core::Mat<Real> affine_of(const BoxSample& sample, const BoxMoments& moments)
-{
-    core::Mat<Real> c;
-    for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b)
-            c(a, b) = (sample.along[b][4 + a] + moments.hanging(a, b)) / moments.inertia[static_cast<std::size_t>(b)];
-    return c;
-}
-
 /// Add m w C of a particle to the hanging corners of the part's cell.
-/// @param affine  mC [g/ms], row by row
-inline void scatter_affine_part(const BoxPart& part, const std::array<Real, 9>& affine, grid::Levels& levels)
+inline void scatter_affine_part(const BoxPart& part, const BoxGift& gift, grid::Levels& levels)
 {
-    const auto leaf = static_cast<std::size_t>(part.leaf);
-    const HangingRange range =
-        narrowed(hanging_cells(levels, leaf), leaf * grid::leaf_cells + static_cast<std::size_t>(part.cell));
+    const HangingRange range = hanging_corners(part, levels);
     if (range.begin == range.end) return;
-    grid::CornerAffine& to =
-        levels.interface[static_cast<std::size_t>(levels.leaves[leaf].level - 1)].hanging.affine[range.begin];
+    const auto level = static_cast<std::size_t>(levels.leaves[static_cast<std::size_t>(part.leaf)].level);
+    grid::CornerAffine& to = levels.interface[level - 1].hanging.affine[range.begin];
     for (std::size_t a = 0; a < 3; ++a)
         for (std::size_t b = 0; b < 3; ++b)
             for (std::size_t corner = 0; corner < 8; ++corner)
-                to.entry[3 * a + b][corner] += part.axis[0].weight[corner >> 2] * part.axis[1].weight[corner >> 1 & 1] *
-                                               part.axis[2].weight[corner & 1] * part.axis[a].sign * part.axis[b].sign *
-                                               affine[3 * a + b];
+                to.entry[3 * a + b][corner] +=
+                    corner_weight(part, corner) * part.axis[a].sign * part.axis[b].sign * gift.slope[b][1 + a];
+}
+
+/// Zero what the hanging corners of a leaf have collected.
+inline void clear_affine(std::size_t leaf, grid::Levels& levels)
+{
+    const HangingRange range = hanging_cells(levels, leaf);
+    if (range.begin == range.end) return;
+    auto& affine = levels.interface[static_cast<std::size_t>(levels.leaves[leaf].level - 1)].hanging.affine;
+    std::fill(affine.begin() + static_cast<std::ptrdiff_t>(range.begin),
+              affine.begin() + static_cast<std::ptrdiff_t>(range.end), grid::CornerAffine{});
 }
 } // namespace transfer

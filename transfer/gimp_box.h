@@ -6,9 +6,8 @@
 ///
 ///     Phi_a = sum_b |b| / |B| N_a(centre of b),      grad Phi_a = sum_b |b| / |B| grad N_a(centre of b)
 ///
-/// exactly, also across level interfaces (methods.md A.3.3). Sub-boxes in one leaf, in cells of one level, form a
-/// tensor product: a `BoxPart` of two or three nodes per axis in the tile of that leaf. Nearly every box is a single
-/// part.
+/// exactly, also across level interfaces (methods.md A.3.3). Nearly every box touches cells of one level only and has
+/// weights in closed form (gimp_weights.h); the cutter here serves the rest, and says what both mean.
 ///
 /// A box that reaches through a symmetry plane is reflected there: the part beyond acts on the mirror images of its
 /// nodes, whose normal velocity has the other sign. So a half model is half of the whole one, to round-off.
@@ -23,47 +22,16 @@
 
 namespace transfer
 {
-/// One axis of a part: weights, their slopes and the nodes' distances from the particle.
-struct BoxAxis
-{
-    int count = 2;       // nodes
-    Real weight[3] = {}; // 1
-    Real slope[3] = {};  // 1/mm
-    Real arm[3] = {};    // mm, node minus particle
-    Real sign = 1;       // -1: reflected at a symmetry plane
-};
-
-struct BoxPart
-{
-    std::int32_t leaf = -1;
-    std::int32_t node = 0;  // lowest node in the leaf's tile
-    std::int32_t cell = -1; // of the leaf, if the part lies in one; -1: several
-    BoxAxis axis[3];
-    bool reflected = false;
-};
-
-struct BoxParts
-{
-    std::vector<BoxPart> part;
-    bool outside = false; // some sub-box lies in a cell that is not active: it is missing, cells must be built first
-};
-
-/// What cutting needs to know; made once per pass.
+/// What cutting needs to know.
 struct BoxCutter
 {
     const PassOptions& options;
     const grid::Levels& levels;
     const grid::Refinement& refinement;
-    std::vector<std::uint8_t> hangs; // [leaf] 1: APIC, and some cell has a hanging corner: one part per cell there
 
-    BoxCutter(const PassOptions& pass, const grid::Levels& all, const grid::Refinement& cells);
-
-    /// Parts of particle p, which is stored under `home`, in a fixed order.
-    void cut(const particles::Particles& particles, std::size_t p, std::size_t home, BoxParts& parts) const;
-
-private:
-    /// The common case: the box lies in active cells of its home leaf, away from walls and hanging corners.
-    bool cut_at_home(const particles::Particles& particles, std::size_t p, std::size_t home, BoxPart& part) const;
+    /// Add the parts of the box of particle p, in the order of their cells.
+    /// @return whether all its cells are active (and its position a number); if not, the part is missing
+    bool cut(const particles::Particles& particles, std::size_t p, std::vector<BoxPart>& parts) const;
 };
 
 /// Share of (cell width / wave speed) that a step may not exceed: the smallest stable step over all places of the boxes
@@ -75,8 +43,11 @@ inline Real box_step_share(int per_axis)
     return cube * line[per_axis < 4 ? per_axis - 1 : 3];
 }
 
-/// Half width of a particle's box, in cells of `level` [1].
-Real box_half_width(const PassOptions& options, const particles::Particles& particles, std::size_t p, int level);
+/// Bounds of boxes nearer to a plane of cells than this are on it [cells].
+inline constexpr Real box_on_plane = 1e-12;
+
+/// Half width of a box of some size level, in cells of `level` [1].
+Real box_half_width(const PassOptions& options, int size_level, int level);
 
 /// Bounds of a box in cells of some level; `snapped` moves bounds that lie on a plane of the finest cells but for
 /// rounding onto it, so that boxes at rest touch no neighbour.
@@ -97,30 +68,4 @@ struct CellRange
     Index3 first, last;
 };
 CellRange cells_between(const BoxBounds& bounds);
-
-/// Leaf of `level` and number of a cell near leaf `home` of the same level, through its neighbours; leaf -1: none
-/// there, or further away.
-struct CellPlace
-{
-    std::int32_t leaf, cell;
-};
-inline CellPlace place_near(const grid::Levels& levels, std::size_t home, const Index3& cell)
-{
-    const grid::Leaf& leaf = levels.leaves[home];
-    const Index3 local = cell - leaf.origin;
-    int neighbour = 0;
-    for (int a = 0; a < 3; ++a) {
-        const int step = local[a] >> 3;
-        if (step < -1 || step > 1) return {-1, 0};
-        neighbour = 3 * neighbour + step + 1;
-    }
-    return {leaf.neighbour[static_cast<std::size_t>(neighbour)],
-            grid::cell_index(local[0] & 7, local[1] & 7, local[2] & 7)};
-}
-
-inline bool is_active(const grid::Levels& levels, const CellPlace& at)
-{
-    return at.leaf >= 0 && levels.cell_active[static_cast<std::size_t>(at.leaf) * grid::leaf_cells +
-                                              static_cast<std::size_t>(at.cell)] != 0;
-}
 } // namespace transfer

@@ -116,6 +116,32 @@ void drop_occupied(const grid::Levels& levels, const particles::Particles& parti
     cells = std::move(rest);
 }
 
+/// Leaf of `level` and number of a cell near leaf `home` of the same level, through its neighbours; leaf -1: none
+/// there, or further away.
+struct CellPlace
+{
+    std::int32_t leaf, cell;
+};
+CellPlace place_near(const grid::Levels& levels, std::size_t home, const Index3& cell)
+{
+    const grid::Leaf& leaf = levels.leaves[home];
+    const Index3 local = cell - leaf.origin;
+    int neighbour = 0;
+    for (int a = 0; a < 3; ++a) {
+        const int step = local[a] >> 3;
+        if (step < -1 || step > 1) return {-1, 0};
+        neighbour = 3 * neighbour + step + 1;
+    }
+    return {leaf.neighbour[static_cast<std::size_t>(neighbour)],
+            grid::cell_index(local[0] & 7, local[1] & 7, local[2] & 7)};
+}
+
+bool is_active(const grid::Levels& levels, const CellPlace& at)
+{
+    return at.leaf >= 0 && levels.cell_active[static_cast<std::size_t>(at.leaf) * grid::leaf_cells +
+                                              static_cast<std::size_t>(at.cell)] != 0;
+}
+
 /// Cells that boxes reach and that are not active.
 std::vector<grid::CellKey> missing(const PassOptions& options, const grid::Refinement& refinement,
                                    const particles::Particles& particles, const grid::Levels& levels)

@@ -1,76 +1,114 @@
 /// Boxes read velocities off the grid, one by one; lanes of particles are filled from what they read.
 #pragma once
 
-#include "transfer/chunk.h"
 #include "transfer/gimp_affine.h"
+#include "transfer/gimp_lines.h"
 
 namespace transfer
 {
 /// What a chunk of boxes has read, one array entry per particle.
 struct BoxChunk
 {
-    static constexpr int lanes = 8;
-    alignas(64) Real value[8][lanes];    // lanes of grid::NodeMotion
-    alignas(64) Real along[3][8][lanes]; // slopes (and moments) of these, see BoxSample
+    static constexpr int lanes = BoxWeights::lanes;
+    alignas(64) Real value[8][lanes];    // lanes of grid::NodeMotion; affine: the velocity in the first three
+    alignas(64) Real gradient[9][lanes]; // 1/ms, of the velocity or its change, row by row
     alignas(64) Real affine[9][lanes];   // 1/ms, C of APIC
 };
 
-/// What the caller wants besides the values.
-enum class BoxWant
+/// The leaf whose particles gather, and the cut boxes among them. Boxes are asked for in storage order.
+struct BoxSource
 {
-    slopes, // of velocity and change
-    affine, // and slopes of the velocity
+    const grid::Levels& levels;
+    const ReachMap& map;
+    const grid::NodeMotion* node; // of the reach tile
+    const CutBoxes& cut;
+    std::size_t next = 0; // in `cut`
 };
 
-template <BoxWant Want>
-void gather_boxes(const BoxCutter& cutter, const particles::Particles& particles, std::size_t begin, int count,
-                  std::size_t home, BoxParts& parts, BoxChunk& chunk)
+namespace detail
 {
-    static_assert(BoxChunk::lanes >= Lanes::lanes);
-    NodeLine line[4][BoxChunk::lanes];
-    for (int i = 0; i < count; ++i) {
-        cutter.cut(particles, begin + static_cast<std::size_t>(i), home, parts);
-        BoxSample sample;
-        clear(sample);
-        BoxMoments moments;
-        for (const BoxPart& part : parts.part) {
-            const auto leaf = static_cast<std::size_t>(part.leaf);
-            gather_part<Want == BoxWant::affine>(part, cutter.levels.motions(leaf), sample);
-            if constexpr (Want == BoxWant::affine) add_moments(part, cutter.levels, cutter.hangs[leaf] != 0, moments);
-        }
-        line[0][i] = sample.value;
-        for (int b = 0; b < 3; ++b) line[1 + b][i] = sample.along[b];
-        if constexpr (Want == BoxWant::affine) {
-            const core::Mat<Real> c = affine_of(sample, moments);
-            for (std::size_t n = 0; n < 9; ++n) chunk.affine[n][i] = c.m[n];
-        }
-    }
-    // Lanes without a particle are computed with, never stored.
-    for (int i = count; i < BoxChunk::lanes; ++i) {
-        for (auto& of_quantity : line) of_quantity[i] = NodeLine(Real(0));
-        if constexpr (Want == BoxWant::affine)
-            for (int n = 0; n < 9; ++n) chunk.affine[n][i] = 0;
-    }
-    for (auto& of_quantity : line) core::transpose(of_quantity);
-    for (int q = 0; q < 8; ++q) {
-        line[0][q].store(chunk.value[q]);
-        for (int b = 0; b < 3; ++b) line[1 + b][q].store(chunk.along[b][q]);
+/// Lines and moments of the next cut box.
+template <BoxRead Read>
+[[gnu::noinline]] void gather_cut(BoxSource& source, NodeLine* out, BoxMoments& moments)
+{
+    for (int n = 0; n < box_lines(Read); ++n) out[8 * n] = NodeLine(Real(0));
+    const std::size_t box = source.next++;
+    for (std::size_t n = source.cut.part_start[box]; n < source.cut.part_start[box + 1]; ++n) {
+        const BoxPart& part = source.cut.part[n];
+        gather_part<Read>(part, source.levels.motions(static_cast<std::size_t>(part.leaf)), out);
+        if constexpr (Read == BoxRead::affine) add_moments(part, source.levels, moments);
     }
 }
 
-/// Gradient of the three quantities from `column` on.
-[[gnu::always_inline]] inline core::Mat<Lanes> gradient_lanes(const BoxChunk& chunk, int column)
+[[gnu::always_inline]] inline Lanes box_inertia(const BoxWeights& w, int axis)
 {
-    core::Mat<Lanes> g;
-    for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b) g(a, b) = Lanes::load(chunk.along[b][column + a]);
-    return g;
+    Lanes inertia(Real(0));
+    for (int n = 0; n < 3; ++n) {
+        const Lanes arm = Lanes::load(w.arm[axis][n]);
+        inertia += Lanes::load(w.weight[axis][n]) * arm * arm;
+    }
+    return inertia;
+}
+} // namespace detail
+
+/// Read the first `count` boxes of `weights`. A box that the map does not serve is the source's next cut one.
+template <BoxRead Read>
+[[gnu::noinline]] void gather_boxes(const BoxWeights& weights, int count, BoxSource& source, BoxChunk& chunk)
+{
+    constexpr bool affine = Read == BoxRead::affine;
+    NodeLine line[box_lines(Read)][BoxChunk::lanes];
+    alignas(64) Real inertia[3][BoxChunk::lanes] = {};
+    if constexpr (affine)
+        for (int a = 0; a < 3; ++a) detail::box_inertia(weights, a).store(inertia[a]);
+    core::Mat<Real> hanging[BoxChunk::lanes];
+    bool any_hanging = false;
+    for (int i = 0; i < BoxChunk::lanes; ++i) {
+        NodeLine* out = line[0] + i;
+        if (i >= count) { // computed with, never stored
+            for (int n = 0; n < box_lines(Read); ++n) out[8 * n] = NodeLine(Real(0));
+            continue;
+        }
+        if (served(source.map, weights, i)) {
+            gather_walks<Read>[static_cast<std::size_t>(weights.code(i))](weights, i, source.node + weights.node(i),
+                                                                          out);
+        } else {
+            BoxMoments moments;
+            detail::gather_cut<Read>(source, out, moments);
+            if constexpr (affine) {
+                for (std::size_t a = 0; a < 3; ++a) inertia[a][i] = moments.inertia[a];
+                if (!any_hanging) std::fill_n(hanging, BoxChunk::lanes, core::Mat<Real>{});
+                any_hanging = true;
+                hanging[i] = moments.hanging;
+            }
+        }
+    }
+    for (int n = 0; n < box_lines(Read); ++n) core::transpose(line[n]);
+    for (int q = 0; q < 8; ++q) line[0][q].store(chunk.value[q]);
+    if constexpr (Read != BoxRead::values) {
+        constexpr int wanted = Read == BoxRead::change_slopes ? change_column : velocity_column;
+        for (int a = 0; a < 3; ++a) {
+            line[1][wanted + a].store(chunk.gradient[3 * a]);
+            line[2][a].store(chunk.gradient[3 * a + 1]);
+            if constexpr (affine)
+                line[3][a].store(chunk.gradient[3 * a + 2]);
+            else
+                line[2][4 + a].store(chunk.gradient[3 * a + 2]);
+        }
+    }
+    if constexpr (affine)
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b) {
+                NodeLine moment = line[1 + b][4 + a];
+                if (any_hanging)
+                    for (int i = 0; i < count; ++i) moment.v[i] += hanging[i](a, b);
+                (moment / NodeLine::load(inertia[b])).store(chunk.affine[3 * a + b]);
+            }
 }
 
-[[gnu::always_inline]] inline core::Mat<Lanes> affine_lanes(const BoxChunk& chunk)
+[[gnu::always_inline]] inline core::Mat<Lanes> matrix_lanes(const Real (&rows)[9][BoxChunk::lanes])
 {
-    core::Mat<Lanes> c;
-    for (std::size_t n = 0; n < 9; ++n) c.m[n] = Lanes::load(chunk.affine[n]);
-    return c;
+    core::Mat<Lanes> m;
+    for (std::size_t n = 0; n < 9; ++n) m.m[n] = Lanes::load(rows[n]);
+    return m;
 }
 } // namespace transfer

@@ -1,35 +1,68 @@
-/// Sums over the nodes of one part of a box; lanes are the eight quantities of a node (one cache line), factorised z,
-/// y, x.
+/// Sums over the nodes of a box; lanes are the eight quantities of a node (one cache line), factorised z, y, x.
 ///
 /// With w the weight, s the slope and d = x_i - x_p of an axis, a node line N and the coefficient of axis a in lane q
 /// either s or w d, both directions are
 ///
 ///     gather:   value = sum w w w N,   along_a = sum (coefficient of a) w w N
 ///     scatter:  N += w w w base + sum_a (coefficient of a) w w slope_a
+///
+/// A whole box has two or three nodes per axis and weights from a BoxWeights; a part of a cut one has two.
 #pragma once
 
 #include "core/simd.h"
-#include "transfer/gimp_box.h"
+#include "transfer/gimp_weights.h"
 
 namespace transfer
 {
 /// One lane per quantity of a node.
 using NodeLine = core::Pack<Real, 8>;
 
+/// What is read off the grid besides the lanes of grid::NodeMotion.
+enum class BoxRead
+{
+    values,          // nothing
+    velocity_slopes, // slopes of the velocity
+    change_slopes,   // slopes of its change
+    affine,          // slopes and moments of the velocity, instead of its change
+};
+
+/// Lines that a box reads: the values, then
+///     slopes:  along x (of all lanes), and along y in the lower, along z in the upper half
+///     affine:  one for each axis, slopes in the lower half, first moments sum w (x_i - x_p) v in the upper one
+inline constexpr int box_lines(BoxRead read)
+{
+    return read == BoxRead::values ? 1 : read == BoxRead::affine ? 4 : 3;
+}
+
 namespace detail
 {
-inline constexpr NodeLine::Lanes lower_half = {1, 1, 1, 1, 0, 0, 0, 0};
-inline constexpr NodeLine::Lanes upper_half = {0, 0, 0, 0, 1, 1, 1, 1};
 inline constexpr NodeLine::Lanes momentum_lanes = {0, 1, 1, 1, 0, 0, 0, 0};
 inline constexpr NodeLine::Lanes force_lanes = {0, 0, 0, 0, 1, 1, 1, 0};
 
-[[gnu::always_inline]] inline NodeLine doubled(NodeLine line)
+/// Lower half of a, upper half of b.
+[[gnu::always_inline]] inline NodeLine halves(NodeLine a, NodeLine b)
 {
-    return {__builtin_shufflevector(line.v, line.v, 0, 1, 2, 3, 0, 1, 2, 3)};
+    return {__builtin_shufflevector(a.v, b.v, 0, 1, 2, 3, 12, 13, 14, 15)};
+}
+/// Lower halves of both, upper halves of both.
+[[gnu::always_inline]] inline NodeLine lower_halves(NodeLine a, NodeLine b)
+{
+    return {__builtin_shufflevector(a.v, b.v, 0, 1, 2, 3, 8, 9, 10, 11)};
+}
+[[gnu::always_inline]] inline NodeLine upper_halves(NodeLine a, NodeLine b)
+{
+    return {__builtin_shufflevector(a.v, b.v, 4, 5, 6, 7, 12, 13, 14, 15)};
+}
+
+/// The half of a line that slopes or moments are wanted of, twice.
+template <BoxRead Read>
+[[gnu::always_inline]] inline NodeLine wanted_half(NodeLine line)
+{
+    return Read == BoxRead::change_slopes ? upper_halves(line, line) : lower_halves(line, line);
 }
 
 /// +1, or -1 in the lanes of axes that are reflected; `first` is the lane of the x component.
-[[gnu::always_inline]] inline NodeLine signs(const BoxPart& part, int first)
+inline NodeLine signs(const BoxPart& part, int first)
 {
     NodeLine line(Real(1));
     for (int a = 0; a < 3; ++a) {
@@ -38,109 +71,203 @@ inline constexpr NodeLine::Lanes force_lanes = {0, 0, 0, 0, 1, 1, 1, 0};
     }
     return line;
 }
+
+/// Coefficient of slopes and moments.
+[[gnu::always_inline]] inline NodeLine slope_and_moment(const BoxWeights& w, int axis, int n, int i)
+{
+    return halves(NodeLine(w.slope[axis][n][i]), NodeLine(w.weight[axis][n][i] * w.arm[axis][n][i]));
+}
+
+/// The slope in the lanes of the force, and for APIC weight times arm in those of the momentum. Without APIC the
+/// momentum lanes of the slopes are zero.
+template <bool Affine>
+[[gnu::always_inline]] inline NodeLine scatter_coefficient(const BoxWeights& w, int axis, int n, int i)
+{
+    const NodeLine force(w.slope[axis][n][i]);
+    return Affine ? halves(NodeLine(w.weight[axis][n][i] * w.arm[axis][n][i]), force) : force;
+}
 } // namespace detail
 
-/// What a box reads off the grid.
-struct BoxSample
+/// Read box i; `node` is its lowest one in the reach tile. Line n goes to out[8 n].
+///
+/// A function of its own for every number of nodes: inlined side by side their common parts would be computed before
+/// the choice, and spilled.
+template <BoxRead Read, int X, int Y, int Z>
+[[gnu::noinline]] void gather_box(const BoxWeights& w, int i, const grid::NodeMotion* node, NodeLine* out)
 {
-    NodeLine value;    // lanes of grid::NodeMotion
-    NodeLine along[3]; // without moments: slopes of all lanes [1/mm]; with: 0-2 slopes of the velocity, 4-6 its first
-                       // moments sum w (x_i - x_p) v [mm^2/ms]
-};
-
-[[gnu::always_inline]] inline void clear(BoxSample& sample)
-{
+    using detail::halves;
+    constexpr bool values = Read == BoxRead::values, affine = Read == BoxRead::affine;
     const NodeLine zero(Real(0));
-    sample.value = sample.along[0] = sample.along[1] = sample.along[2] = zero;
-}
-
-/// Add the part of a box; `tile` is the motion tile of its leaf.
-template <bool Moments>
-void gather_part(const BoxPart& part, const grid::NodeMotion* tile, BoxSample& sample)
-{
-    const NodeLine lower(detail::lower_half), upper(detail::upper_half), zero(Real(0));
-    NodeLine coefficient[3][3];
-    for (int a = 0; a < 3; ++a)
-        for (int n = 0; n < 3; ++n) {
-            const BoxAxis& axis = part.axis[a];
-            coefficient[a][n] = Moments
-                                    ? lower * NodeLine(axis.slope[n]) + upper * NodeLine(axis.weight[n] * axis.arm[n])
-                                    : NodeLine(axis.slope[n]);
-        }
-    const grid::NodeMotion* node = tile + part.node;
-    NodeLine v = zero, x = zero, y = zero, z = zero;
-    for (int i = 0; i < part.axis[0].count; ++i) {
-        NodeLine v_i = zero, y_i = zero, z_i = zero;
-        for (int j = 0; j < part.axis[1].count; ++j) {
-            NodeLine v_j = zero, z_j = zero;
-            for (int k = 0; k < part.axis[2].count; ++k) {
-                NodeLine line = NodeLine::load(node[grid::tile_index(i, j, k)].velocity.data());
-                if constexpr (Moments) line = detail::doubled(line);
-                v_j += NodeLine(part.axis[2].weight[k]) * line;
-                z_j += coefficient[2][k] * line;
+    NodeLine z_weight[Z], z_both[Z], y_weight[Y], y_both[Y];
+    for (int k = 0; k < Z; ++k) {
+        z_weight[k] = NodeLine(w.weight[2][k][i]);
+        if constexpr (affine) z_both[k] = detail::slope_and_moment(w, 2, k, i);
+        if constexpr (!affine && !values) z_both[k] = halves(z_weight[k], NodeLine(w.slope[2][k][i]));
+    }
+    for (int j = 0; j < Y; ++j) {
+        y_weight[j] = NodeLine(w.weight[1][j][i]);
+        if constexpr (affine) y_both[j] = detail::slope_and_moment(w, 1, j, i);
+        if constexpr (!affine && !values) y_both[j] = halves(NodeLine(w.slope[1][j][i]), y_weight[j]);
+    }
+    // Of the slopes: `yz` holds value and slope along z of the wanted half, then slopes along y and z.
+    NodeLine value = zero, x = zero, y = zero, yz = zero;
+    for (int a = 0; a < X; ++a) {
+        NodeLine value_a = zero, y_a = zero, yz_a = zero;
+        for (int b = 0; b < Y; ++b) {
+            NodeLine value_b = zero, yz_b = zero;
+            for (int c = 0; c < Z; ++c) {
+                NodeLine line = NodeLine::load(node[(a * reach_side + b) * reach_side + c].velocity.data());
+                const NodeLine twice = detail::wanted_half<Read>(line);
+                if constexpr (affine) line = twice;
+                value_b += z_weight[c] * line;
+                if constexpr (!values) yz_b += z_both[c] * twice;
             }
-            const NodeLine w(part.axis[1].weight[j]);
-            v_i += w * v_j;
-            y_i += coefficient[1][j] * v_j;
-            z_i += w * z_j;
+            value_a += y_weight[b] * value_b;
+            if constexpr (affine) {
+                y_a += y_both[b] * value_b;
+                yz_a += y_weight[b] * yz_b;
+            } else if constexpr (!values) {
+                yz_a += y_both[b] * yz_b;
+            }
         }
-        const NodeLine w(part.axis[0].weight[i]);
-        v += w * v_i;
-        x += coefficient[0][i] * v_i;
-        y += w * y_i;
-        z += w * z_i;
+        const NodeLine x_weight(w.weight[0][a][i]);
+        value += x_weight * value_a;
+        if constexpr (affine) x += detail::slope_and_moment(w, 0, a, i) * value_a;
+        if constexpr (!affine && !values) x += NodeLine(w.slope[0][a][i]) * value_a;
+        if constexpr (affine) y += x_weight * y_a;
+        if constexpr (!values) yz += x_weight * yz_a;
     }
-    if (part.reflected) {
-        const NodeLine sign = detail::signs(part, 0);
-        v *= sign;
-        x *= sign;
-        y *= sign;
-        z *= sign;
+    out[0] = value;
+    if constexpr (!values) out[8] = x;
+    if constexpr (affine) {
+        out[16] = y;
+        out[24] = yz;
+    } else if constexpr (!values) {
+        out[16] = yz;
     }
-    sample.value += v;
-    sample.along[0] += x;
-    sample.along[1] += y;
-    sample.along[2] += z;
 }
 
-/// What a particle gives to every node it reaches, in lanes of grid::NodeSum.
-struct BoxLines
+/// The walks by BoxWeights::code.
+template <BoxRead Read>
+inline constexpr std::array gather_walks{
+    gather_box<Read, 2, 2, 2>, gather_box<Read, 2, 2, 3>, gather_box<Read, 2, 3, 2>, gather_box<Read, 2, 3, 3>,
+    gather_box<Read, 3, 2, 2>, gather_box<Read, 3, 2, 3>, gather_box<Read, 3, 3, 2>, gather_box<Read, 3, 3, 3>};
+
+/// Add what the part of a cut box reads; `tile` is the motion tile of its leaf. Line n is
+/// added to out[8 n].
+template <BoxRead Read>
+void gather_part(const BoxPart& part, const grid::NodeMotion* tile, NodeLine* out)
 {
-    NodeLine base;     // mass, momentum
-    NodeLine slope[3]; // [b] lanes 1 + a: m C(a, b) [g/ms]; lanes 4 + a: V sigma(a, b) [N mm]
+    constexpr bool affine = Read == BoxRead::affine;
+    const NodeLine zero(Real(0));
+    NodeLine sum[4] = {zero, zero, zero, zero}; // value, along x, y, z
+    for (int corner = 0; corner < 8; ++corner) {
+        const int n[3] = {corner >> 2, corner >> 1 & 1, corner & 1};
+        NodeLine line = NodeLine::load(tile[part.node + grid::tile_index(n[0], n[1], n[2])].velocity.data());
+        if constexpr (affine) line = detail::wanted_half<Read>(line);
+        const Real w[3] = {part.axis[0].weight[n[0]], part.axis[1].weight[n[1]], part.axis[2].weight[n[2]]};
+        sum[0] += NodeLine(w[0] * w[1] * w[2]) * line;
+        for (int a = 0; a < 3; ++a) {
+            const Real across = w[(a + 1) % 3] * w[(a + 2) % 3];
+            const NodeLine slope(across * part.axis[a].slope[n[a]]);
+            const NodeLine moment(across * w[a] * part.axis[a].arm[n[a]]);
+            sum[1 + a] += (affine ? detail::halves(slope, moment) : slope) * line;
+        }
+    }
+    if (part.reflected)
+        for (NodeLine& line : sum) line *= detail::signs(part, 0);
+    out[0] += sum[0];
+    if constexpr (Read == BoxRead::values) return;
+    out[8] += sum[1];
+    if constexpr (affine) {
+        out[16] += sum[2];
+        out[24] += sum[3];
+    } else {
+        out[16] += Read == BoxRead::change_slopes ? detail::upper_halves(sum[2], sum[3])
+                                                  : detail::lower_halves(sum[2], sum[3]);
+    }
+}
+
+/// What a particle gives to every node it reaches, as BoxGift; without APIC the slope along x lies in the upper half of
+/// `base`, and slope[0] is not used.
+struct GiftLines
+{
+    NodeLine base, slope[3];
 };
 
-/// Add the part of a box to the sum tile of its leaf: mass, momentum with its affine part, force - V sigma grad w.
-inline void scatter_part(const BoxPart& part, const BoxLines& from, grid::NodeSum* tile)
+/// Add box i to the sums in reach; `node` is its lowest one.
+template <bool Affine, BoxGive Give, int X, int Y, int Z>
+[[gnu::noinline]] void scatter_box(const BoxWeights& w, int i, const GiftLines& gift, grid::NodeSum* node)
 {
-    BoxLines lines = from;
+    constexpr bool slopes = Affine || Give == BoxGive::all;
+    NodeLine z_weight[Z], z_slope[Z], y_weight[Y], y_slope[Y];
+    for (int k = 0; k < Z; ++k) {
+        z_weight[k] = NodeLine(w.weight[2][k][i]);
+        if constexpr (slopes) z_slope[k] = detail::scatter_coefficient<Affine>(w, 2, k, i);
+    }
+    for (int j = 0; j < Y; ++j) {
+        y_weight[j] = NodeLine(w.weight[1][j][i]);
+        if constexpr (slopes) y_slope[j] = detail::scatter_coefficient<Affine>(w, 1, j, i);
+    }
+    for (int a = 0; a < X; ++a) {
+        const NodeLine x_weight(w.weight[0][a][i]);
+        NodeLine base_a, y_a, z_a;
+        if constexpr (Affine)
+            base_a = x_weight * gift.base + detail::scatter_coefficient<Affine>(w, 0, a, i) * gift.slope[0];
+        else if constexpr (slopes)
+            base_a = detail::halves(x_weight, detail::scatter_coefficient<Affine>(w, 0, a, i)) * gift.base;
+        else
+            base_a = x_weight * gift.base;
+        if constexpr (slopes) {
+            y_a = x_weight * gift.slope[1];
+            z_a = x_weight * gift.slope[2];
+        }
+        for (int b = 0; b < Y; ++b) {
+            NodeLine base_b = y_weight[b] * base_a, z_b;
+            if constexpr (slopes) {
+                base_b += y_slope[b] * y_a;
+                z_b = y_weight[b] * z_a;
+            }
+            for (int c = 0; c < Z; ++c) {
+                Real* target = &node[(a * reach_side + b) * reach_side + c].mass;
+                NodeLine line = NodeLine::load(target) + z_weight[c] * base_b;
+                if constexpr (slopes) line += z_slope[c] * z_b;
+                line.store(target);
+            }
+        }
+    }
+}
+
+template <bool Affine, BoxGive Give>
+inline constexpr std::array scatter_walks{scatter_box<Affine, Give, 2, 2, 2>, scatter_box<Affine, Give, 2, 2, 3>,
+                                          scatter_box<Affine, Give, 2, 3, 2>, scatter_box<Affine, Give, 2, 3, 3>,
+                                          scatter_box<Affine, Give, 3, 2, 2>, scatter_box<Affine, Give, 3, 2, 3>,
+                                          scatter_box<Affine, Give, 3, 3, 2>, scatter_box<Affine, Give, 3, 3, 3>};
+
+/// Add the part of a cut box to the sum tile of its leaf.
+inline void scatter_part(const BoxPart& part, const BoxGift& gift, grid::NodeSum* tile)
+{
+    NodeLine base = NodeLine::load(gift.base.data());
+    NodeLine slope[3];
+    for (std::size_t a = 0; a < 3; ++a) slope[a] = NodeLine::load(gift.slope[a].data());
     if (part.reflected) {
         const NodeLine sign = detail::signs(part, 1);
-        lines.base *= sign;
-        for (NodeLine& slope : lines.slope) slope *= sign;
+        base *= sign;
+        for (NodeLine& line : slope) line *= sign;
     }
     const NodeLine momentum(detail::momentum_lanes), force(detail::force_lanes);
-    NodeLine coefficient[3][3];
-    for (int a = 0; a < 3; ++a)
-        for (int n = 0; n < 3; ++n) {
-            const BoxAxis& axis = part.axis[a];
-            coefficient[a][n] = momentum * NodeLine(axis.weight[n] * axis.arm[n]) - force * NodeLine(axis.slope[n]);
+    for (int corner = 0; corner < 8; ++corner) {
+        const int n[3] = {corner >> 2, corner >> 1 & 1, corner & 1};
+        const Real w[3] = {part.axis[0].weight[n[0]], part.axis[1].weight[n[1]], part.axis[2].weight[n[2]]};
+        Real* target = &tile[part.node + grid::tile_index(n[0], n[1], n[2])].mass;
+        NodeLine line = NodeLine::load(target) + NodeLine(w[0] * w[1] * w[2]) * base;
+        for (int a = 0; a < 3; ++a) {
+            const Real across = w[(a + 1) % 3] * w[(a + 2) % 3];
+            line += (momentum * NodeLine(across * w[a] * part.axis[a].arm[n[a]]) +
+                     force * NodeLine(across * part.axis[a].slope[n[a]])) *
+                    slope[a];
         }
-    grid::NodeSum* node = tile + part.node;
-    for (int i = 0; i < part.axis[0].count; ++i) {
-        const NodeLine w_i(part.axis[0].weight[i]);
-        const NodeLine base_i = w_i * lines.base + coefficient[0][i] * lines.slope[0];
-        const NodeLine y_i = w_i * lines.slope[1], z_i = w_i * lines.slope[2];
-        for (int j = 0; j < part.axis[1].count; ++j) {
-            const NodeLine w_j(part.axis[1].weight[j]);
-            const NodeLine base_j = w_j * base_i + coefficient[1][j] * y_i;
-            const NodeLine z_j = w_j * z_i;
-            for (int k = 0; k < part.axis[2].count; ++k) {
-                Real* target = &node[grid::tile_index(i, j, k)].mass;
-                const NodeLine line = NodeLine(part.axis[2].weight[k]) * base_j + coefficient[2][k] * z_j;
-                (NodeLine::load(target) + line).store(target);
-            }
-        }
+        line.store(target);
     }
 }
 } // namespace transfer

@@ -1,70 +1,94 @@
-/// What both scatters of a box share: mass, momentum and force at the end of a step, momentum alone in the middle.
+/// What particles give to the nodes: mass, momentum and force at the end of a step, momentum alone in the middle.
 #pragma once
 
-#include "transfer/chunk.h"
-#include "transfer/gimp_affine.h"
-
-#include <algorithm>
+#include "transfer/gimp_lines.h"
 
 namespace transfer
 {
-/// Lines of up to `Lanes::lanes` particles. First by quantity, then `turn` makes them the lines of each particle.
+/// The gifts of up to `Lanes::lanes` particles. First by quantity, then `turn` makes them the lines of each particle.
+template <Transfer T>
 struct BoxStage
 {
-    alignas(64) Real row[4][8][8] = {}; // base and three slopes; [quantity][particle]
-    NodeLine line[4][8];
+    static constexpr bool affine = T == Transfer::apic;
+    static constexpr int lines = affine ? 4 : 2;
+    alignas(64) Real row[lines][8][8]; // [line][quantity][particle]
+    NodeLine line[lines][8];
+
+    /// Zero all but what `all` or the momentum alone writes.
+    explicit BoxStage(BoxGive give)
+    {
+        for (auto& of_line : row)
+            for (int q = 0; q < 8; ++q)
+                if (give == BoxGive::momentum || q % 4 == 3 || (affine && q == 0)) NodeLine(Real(0)).store(of_line[q]);
+    }
+
+    Real* mass() { return row[0][0]; }
+    Real* momentum(std::size_t a) { return row[0][1 + a]; }
+    /// m C(a, b)
+    Real* affine_momentum(std::size_t a, std::size_t b) { return row[1 + b][1 + a]; }
+    /// -V sigma(a, b). Without APIC the three slopes are half lines: the one along x follows mass and momentum.
+    Real* flux(std::size_t a, std::size_t b)
+    {
+        if constexpr (affine) return row[1 + b][4 + a];
+        return row[(b + 1) / 2][a + (b == 1 ? 0 : 4)];
+    }
 
     void turn()
     {
-        for (int n = 0; n < 4; ++n) {
+        for (int n = 0; n < lines; ++n) {
             for (int q = 0; q < 8; ++q) line[n][q] = NodeLine::load(row[n][q]);
             core::transpose(line[n]);
         }
     }
-    BoxLines of(int i) const { return {line[0][i], {line[1][i], line[2][i], line[3][i]}}; }
+
+    GiftLines of(int i) const
+    {
+        if constexpr (affine) return {line[0][i], {line[1][i], line[2][i], line[3][i]}};
+        const NodeLine zero(Real(0)), both = line[1][i];
+        return {line[0][i], {zero, detail::lower_halves(zero, both), detail::halves(zero, both)}};
+    }
+
+    BoxGift gift(int i) const
+    {
+        GiftLines from = of(i);
+        if constexpr (!affine) {
+            const NodeLine zero(Real(0));
+            from.slope[0] = detail::halves(zero, from.base);
+            from.base = detail::halves(from.base, zero);
+        }
+        BoxGift to;
+        from.base.store(to.base.data());
+        for (std::size_t b = 0; b < 3; ++b) from.slope[b].store(to.slope[b].data());
+        return to;
+    }
 };
 
-/// Momentum and the affine part of it; mass and force are left zero.
+/// Momentum and the affine part of it.
 template <Transfer T>
-void stage_momentum(const particles::Particles& particles, std::size_t begin, int count, BoxStage& stage)
+void stage_momentum(const particles::Particles& particles, std::size_t begin, int count, BoxStage<T>& stage)
 {
     const Lanes m = load(particles.mass, begin, count);
     for (std::size_t a = 0; a < 3; ++a) {
-        (m * load(particles.velocity[a], begin, count)).store(stage.row[0][1 + a]);
+        (m * load(particles.velocity[a], begin, count)).store(stage.momentum(a));
         if constexpr (T == Transfer::apic)
             for (std::size_t b = 0; b < 3; ++b)
-                (m * load(particles.affine[3 * a + b], begin, count)).store(stage.row[1 + b][1 + a]);
+                (m * load(particles.affine[3 * a + b], begin, count)).store(stage.affine_momentum(a, b));
     }
 }
 
-/// Add the parts of a box that lie in `leaf`.
-template <Transfer T>
-void add_to_leaf(const BoxCutter& cutter, const BoxParts& parts, const BoxLines& lines, std::size_t leaf,
-                 grid::Levels& levels)
+/// Add the boxes that the map serves to the sums in reach; for the others `cut(i)` is called, in order.
+template <Transfer T, BoxGive Give, class Cut>
+[[gnu::always_inline]] inline void add_boxes(const ReachMap& map, const BoxWeights& weights, int count,
+                                             const BoxStage<T>& stage, ReachTile<grid::NodeSum>& tile, const Cut& cut)
 {
-    for (const BoxPart& part : parts.part) {
-        if (part.leaf != static_cast<std::int32_t>(leaf)) continue;
-        scatter_part(part, lines, levels.sums(leaf));
-        if constexpr (T == Transfer::apic) {
-            if (cutter.hangs[leaf] == 0) continue;
-            std::array<Real, 9> affine;
-            for (int a = 0; a < 3; ++a)
-                for (int b = 0; b < 3; ++b) affine[static_cast<std::size_t>(3 * a + b)] = lines.slope[b][1 + a];
-            scatter_affine_part(part, affine, levels);
+    for (int i = 0; i < count; ++i) {
+        if (!served(map, weights, i)) {
+            cut(i);
+            continue;
         }
-    }
-}
-
-/// Zero what the hanging corners of a leaf have collected.
-template <Transfer T>
-void clear_affine(std::size_t leaf, grid::Levels& levels)
-{
-    if constexpr (T == Transfer::apic) {
-        const HangingRange range = hanging_cells(levels, leaf);
-        if (range.begin == range.end) return;
-        auto& affine = levels.interface[static_cast<std::size_t>(levels.leaves[leaf].level - 1)].hanging.affine;
-        std::fill(affine.begin() + static_cast<std::ptrdiff_t>(range.begin),
-                  affine.begin() + static_cast<std::ptrdiff_t>(range.end), grid::CornerAffine{});
+        const GiftLines gift = stage.of(i);
+        scatter_walks<T == Transfer::apic, Give>[static_cast<std::size_t>(weights.code(i))](
+            weights, i, gift, tile.node + weights.node(i));
     }
 }
 } // namespace transfer

@@ -11,19 +11,18 @@ namespace
 {
 /// New velocities (and affine matrices) of the particles [begin, begin + count).
 template <Transfer T>
-void update_velocity(const BoxCutter& cutter, std::size_t begin, int count, std::size_t leaf, BoxParts& parts,
-                     particles::Particles& particles)
+void update_velocity(const PassOptions& options, const BoxWeights& weights, std::size_t begin, int count,
+                     BoxSource& source, particles::Particles& particles)
 {
     BoxChunk chunk;
-    constexpr BoxWant want = T == Transfer::apic ? BoxWant::affine : BoxWant::slopes;
-    gather_boxes<want>(cutter, particles, begin, count, leaf, parts, chunk);
-    const Lanes pic(cutter.options.pic_fraction);
+    gather_boxes<T == Transfer::apic ? BoxRead::affine : BoxRead::values>(weights, count, source, chunk);
+    const Lanes pic(options.pic_fraction);
     for (std::size_t a = 0; a < 3; ++a) {
         const Lanes grid_velocity = Lanes::load(chunk.value[a]);
         Lanes fresh = grid_velocity;
         if constexpr (T == Transfer::flip) {
             fresh = load(particles.velocity[a], begin, count) + Lanes::load(chunk.value[change_column + a]);
-            if (cutter.options.pic_fraction > 0) fresh += pic * (grid_velocity - fresh);
+            if (options.pic_fraction > 0) fresh += pic * (grid_velocity - fresh);
         }
         store(fresh, particles.velocity[a], begin, count);
     }
@@ -32,48 +31,47 @@ void update_velocity(const BoxCutter& cutter, std::size_t begin, int count, std:
 }
 
 template <Transfer T>
-void remap_residents(const BoxCutter& cutter, std::size_t leaf, particles::Particles& particles, grid::Levels& levels)
+void remap_leaf(const PassOptions& options, std::size_t leaf, particles::Particles& particles, grid::Levels& levels,
+                Boxes& boxes)
 {
-    grid::NodeSum* tile = levels.sums(leaf);
-    for (int i = 0; i < grid::tile_nodes; ++i) tile[i].momentum = {};
-    clear_affine<T>(leaf, levels);
+    if constexpr (T == Transfer::apic) clear_affine(leaf, levels);
+    ReachMap map;
+    map_reach(options, levels, leaf, map);
+    ReachTile<grid::NodeMotion> motion;
+    read_motion(levels, leaf, map, motion);
+    ReachTile<grid::NodeSum> tile;
+    clear(map, tile);
+    const BoxFrame frame = box_frame(options, levels, leaf);
+    CutBoxes& cut = boxes.cut[leaf];
+    BoxSource source{levels, map, motion.node, cut};
+    std::size_t given = 0; // cut boxes whose gift is up to date
     const std::size_t end = levels.cell_start[(leaf + 1) * grid::leaf_cells];
-    BoxParts parts;
     for (std::size_t p = levels.cell_start[leaf * grid::leaf_cells]; p < end; p += Lanes::lanes) {
         const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, end - p));
-        update_velocity<T>(cutter, p, count, leaf, parts, particles);
-        BoxStage stage;
+        BoxWeights weights;
+        box_weights<T == Transfer::apic>(frame, particles, p, count, weights);
+        update_velocity<T>(options, weights, p, count, source, particles);
+        BoxStage<T> stage(BoxGive::momentum);
         stage_momentum<T>(particles, p, count, stage);
         stage.turn();
-        for (int i = 0; i < count; ++i) {
-            cutter.cut(particles, p + static_cast<std::size_t>(i), leaf, parts);
-            add_to_leaf<T>(cutter, parts, stage.of(i), leaf, levels);
-        }
+        add_boxes<T, BoxGive::momentum>(map, weights, count, stage, tile,
+                                        [&](int i) { cut.gift[given++] = stage.gift(i); });
     }
+    write_sums(BoxGive::momentum, leaf, map, tile, levels, boxes);
 }
 
 template <Transfer T>
-void remap_with(const BoxCutter& cutter, const Visits& visits, particles::Particles& particles, grid::Levels& levels)
+void remap_with(const PassOptions& options, Boxes& boxes, particles::Particles& particles, grid::Levels& levels)
 {
-    core::parallel_for(levels.leaves.size(), [&](std::size_t n) { remap_residents<T>(cutter, n, particles, levels); });
-    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
-        BoxParts parts;
-        for (std::uint32_t v = visits.start[n]; v < visits.start[n + 1]; ++v) {
-            BoxStage stage;
-            stage_momentum<T>(particles, visits.particle[v], 1, stage);
-            stage.turn();
-            cutter.cut(particles, visits.particle[v], visits.home[v], parts);
-            add_to_leaf<T>(cutter, parts, stage.of(0), n, levels);
-        }
-    });
+    core::parallel_for(levels.leaves.size(),
+                       [&](std::size_t n) { remap_leaf<T>(options, n, particles, levels, boxes); });
 }
 } // namespace
 
-void remap_boxes(const PassOptions& options, const Strays& strays, particles::Particles& particles,
-                 grid::Levels& levels)
+void remap_boxes(const PassOptions& options, Strays& strays, particles::Particles& particles, grid::Levels& levels)
 {
-    const BoxCutter cutter(options, levels, strays.refinement);
-    options.transfer == Transfer::apic ? remap_with<Transfer::apic>(cutter, strays.visits, particles, levels)
-                                       : remap_with<Transfer::flip>(cutter, strays.visits, particles, levels);
+    options.transfer == Transfer::apic ? remap_with<Transfer::apic>(options, strays.boxes, particles, levels)
+                                       : remap_with<Transfer::flip>(options, strays.boxes, particles, levels);
+    deliver_boxes(options, strays.boxes, levels);
 }
 } // namespace transfer

@@ -10,28 +10,13 @@ namespace transfer
 {
 namespace
 {
-/// Someone whose box reaches into another leaf.
-struct Visitor
-{
-    std::int32_t leaf; // where to
-    std::uint32_t particle;
-    Real mean_pressure;
-};
-
-/// What a leaf's own loop leaves for the others.
-struct Outgoing
-{
-    std::vector<Visitor> visitor;
-    bool outside = false;
-};
-
 /// Mass, momentum and V sigma of a chunk, with the mean pressure of its home cell for those that take part in it.
 template <Transfer T>
 void stage_boxes(const LawTable& laws, Real mean_pressure, const particles::Particles& particles, std::size_t begin,
-                 int count, BoxStage& stage)
+                 int count, BoxStage<T>& stage)
 {
     stage_momentum<T>(particles, begin, count, stage);
-    load(particles.mass, begin, count).store(stage.row[0][0]);
+    load(particles.mass, begin, count).store(stage.mass());
     Lanes volume = load(particles.rest_volume, begin, count);
     if (laws.any_decohesion && !particles.cracks.empty()) detail::reduce_to_solid(particles, begin, count, volume);
     volume *= load(particles.volume_ratio, begin, count);
@@ -39,104 +24,124 @@ void stage_boxes(const LawTable& laws, Real mean_pressure, const particles::Part
                               present<Formulation::updated>(Visitors::residents, particles, begin, count);
     const auto stress = load_all<core::Sym<Lanes>>(particles.stress, begin, count);
     const core::Mat<Lanes> flux = detail::volume_stress(volume, stress, averaged, mean_pressure);
-    for (int b = 0; b < 3; ++b)
-        for (int a = 0; a < 3; ++a) flux(a, b).store(stage.row[1 + b][4 + a]);
+    for (std::size_t b = 0; b < 3; ++b)
+        for (std::size_t a = 0; a < 3; ++a) (-flux.m[3 * a + b]).store(stage.flux(a, b));
     stage.turn();
 }
 
-void note_visits(const BoxParts& parts, std::size_t home, std::size_t p, Real mean_pressure, Outgoing& outgoing)
+/// Cut the box of particle p and keep it with what it gives.
+[[gnu::noinline]] void keep_cut(const BoxCutter& cutter, const particles::Particles& particles, std::size_t p,
+                                const BoxGift& gift, CutBoxes& cut)
 {
-    const std::size_t before = outgoing.visitor.size();
-    for (const BoxPart& part : parts.part) {
-        if (part.leaf == static_cast<std::int32_t>(home)) continue;
-        const auto known = [&](const Visitor& v) { return v.leaf == part.leaf; };
-        if (std::any_of(outgoing.visitor.begin() + static_cast<std::ptrdiff_t>(before), outgoing.visitor.end(), known))
-            continue;
-        outgoing.visitor.push_back({part.leaf, static_cast<std::uint32_t>(p), mean_pressure});
-    }
-    outgoing.outside = outgoing.outside || parts.outside;
+    cut.particle.push_back(static_cast<std::uint32_t>(p));
+    cut.gift.push_back(gift);
+    if (!cutter.cut(particles, p, cut.part)) cut.outside = true;
+    cut.part_start.push_back(static_cast<std::uint32_t>(cut.part.size()));
+}
+
+void clear(CutBoxes& cut)
+{
+    cut.particle.clear();
+    cut.part_start.assign(1, 0);
+    cut.part.clear();
+    cut.gift.clear();
+    cut.outside = false;
 }
 
 template <Transfer T>
-void scatter_residents(const BoxCutter& cutter, const LawTable& laws, const particles::Particles& particles,
-                       std::size_t leaf, grid::Levels& levels, Outgoing& outgoing)
+void scatter_leaf_with(const BoxCutter& cutter, const LawTable& laws, const particles::Particles& particles,
+                       std::size_t leaf, const ReachMap& map, grid::Levels& levels, Boxes& boxes)
 {
-    grid::NodeSum* tile = levels.sums(leaf);
-    std::fill(tile, tile + grid::tile_nodes, grid::NodeSum{});
-    clear_affine<T>(leaf, levels);
+    CutBoxes& cut = boxes.cut[leaf];
+    clear(cut);
+    if constexpr (T == Transfer::apic) clear_affine(leaf, levels);
+    ReachTile<grid::NodeSum> tile;
+    clear(map, tile);
+    const BoxFrame frame = box_frame(cutter.options, levels, leaf);
     const std::uint32_t* start = levels.cell_start.data() + leaf * grid::leaf_cells;
-    BoxParts parts;
     for (int c = 0; c < grid::leaf_cells; ++c) {
         if (start[c] == start[c + 1]) continue;
         CellPressure pressure;
         add_pressure(Visitors::residents, laws, particles, start[c], start[c + 1], pressure);
         for (std::size_t p = start[c]; p < start[c + 1]; p += Lanes::lanes) {
             const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, start[c + 1] - p));
-            BoxStage stage;
+            BoxStage<T> stage(BoxGive::all);
+            BoxWeights weights;
+            box_weights<T == Transfer::apic>(frame, particles, p, count, weights);
             stage_boxes<T>(laws, pressure.mean(), particles, p, count, stage);
-            for (int i = 0; i < count; ++i) {
-                const std::size_t q = p + static_cast<std::size_t>(i);
-                cutter.cut(particles, q, leaf, parts);
-                add_to_leaf<T>(cutter, parts, stage.of(i), leaf, levels);
-                note_visits(parts, leaf, q, pressure.mean(), outgoing);
-            }
+            add_boxes<T, BoxGive::all>(map, weights, count, stage, tile, [&](int i) {
+                keep_cut(cutter, particles, p + static_cast<std::size_t>(i), stage.gift(i), cut);
+            });
         }
     }
-}
-
-/// Visitors of every leaf, in the order of the leaves they come from.
-void sort_visits(const std::vector<Outgoing>& outgoing, Visits& visits)
-{
-    visits.start.assign(outgoing.size() + 1, 0);
-    for (const Outgoing& from : outgoing)
-        for (const Visitor& v : from.visitor) ++visits.start[static_cast<std::size_t>(v.leaf) + 1];
-    for (std::size_t n = 0; n < outgoing.size(); ++n) visits.start[n + 1] += visits.start[n];
-    visits.particle.resize(visits.start.back());
-    visits.home.resize(visits.start.back());
-    visits.mean_pressure.resize(visits.start.back());
-    std::vector<std::uint32_t> next(visits.start.begin(), visits.start.end() - 1);
-    for (std::size_t n = 0; n < outgoing.size(); ++n)
-        for (const Visitor& v : outgoing[n].visitor) {
-            const std::uint32_t place = next[static_cast<std::size_t>(v.leaf)]++;
-            visits.particle[place] = v.particle;
-            visits.home[place] = static_cast<std::uint32_t>(n);
-            visits.mean_pressure[place] = v.mean_pressure;
-        }
-}
-
-template <Transfer T>
-void scatter_visitors(const BoxCutter& cutter, const LawTable& laws, const Visits& visits,
-                      const particles::Particles& particles, std::size_t leaf, grid::Levels& levels)
-{
-    BoxParts parts;
-    for (std::uint32_t v = visits.start[leaf]; v < visits.start[leaf + 1]; ++v) {
-        const std::size_t p = visits.particle[v];
-        BoxStage stage;
-        stage_boxes<T>(laws, visits.mean_pressure[v], particles, p, 1, stage);
-        cutter.cut(particles, p, visits.home[v], parts);
-        add_to_leaf<T>(cutter, parts, stage.of(0), leaf, levels);
-    }
-}
-
-template <Transfer T>
-void scatter_with(const BoxCutter& cutter, const LawTable& laws, const particles::Particles& particles,
-                  grid::Levels& levels, Strays& strays)
-{
-    std::vector<Outgoing> outgoing(levels.leaves.size());
-    core::parallel_for(outgoing.size(),
-                       [&](std::size_t n) { scatter_residents<T>(cutter, laws, particles, n, levels, outgoing[n]); });
-    for (const Outgoing& from : outgoing) strays.outside = strays.outside || from.outside;
-    sort_visits(outgoing, strays.visits);
-    core::parallel_for(outgoing.size(),
-                       [&](std::size_t n) { scatter_visitors<T>(cutter, laws, strays.visits, particles, n, levels); });
+    write_sums(BoxGive::all, leaf, map, tile, levels, boxes);
 }
 } // namespace
 
-void scatter_boxes(const PassOptions& options, const LawTable& laws, const particles::Particles& particles,
-                   grid::Levels& levels, Strays& strays)
+void prepare_boxes(const grid::Levels& levels, Boxes& boxes)
 {
-    const BoxCutter cutter(options, levels, strays.refinement);
-    options.transfer == Transfer::apic ? scatter_with<Transfer::apic>(cutter, laws, particles, levels, strays)
-                                       : scatter_with<Transfer::flip>(cutter, laws, particles, levels, strays);
+    const std::size_t leaves = levels.leaves.size();
+    boxes.cut.resize(leaves);
+    boxes.reached.resize(leaves);
+    boxes.skin.resize(leaves * skin_nodes);
+}
+
+void scatter_leaf_boxes(const PassOptions& options, const LawTable& laws, const grid::Refinement& refinement,
+                        const particles::Particles& particles, std::size_t leaf, const ReachMap& map,
+                        grid::Levels& levels, Boxes& boxes)
+{
+    const BoxCutter cutter{options, levels, refinement};
+    options.transfer == Transfer::apic
+        ? scatter_leaf_with<Transfer::apic>(cutter, laws, particles, leaf, map, levels, boxes)
+        : scatter_leaf_with<Transfer::flip>(cutter, laws, particles, leaf, map, levels, boxes);
+}
+
+void sort_arrivals(Strays& strays)
+{
+    Boxes& boxes = strays.boxes;
+    boxes.start.assign(boxes.cut.size() + 1, 0);
+    for (const CutBoxes& cut : boxes.cut) {
+        strays.outside = strays.outside || cut.outside;
+        for (const BoxPart& part : cut.part) ++boxes.start[static_cast<std::size_t>(part.leaf) + 1];
+    }
+    for (std::size_t n = 0; n < boxes.cut.size(); ++n) boxes.start[n + 1] += boxes.start[n];
+    boxes.arrival.resize(boxes.start.back());
+    // The starts move up while the lists fill, to where the next list starts.
+    for (std::size_t n = 0; n < boxes.cut.size(); ++n) {
+        const CutBoxes& cut = boxes.cut[n];
+        for (std::size_t box = 0; box < cut.particle.size(); ++box)
+            for (std::uint32_t part = cut.part_start[box]; part < cut.part_start[box + 1]; ++part)
+                boxes.arrival[boxes.start[static_cast<std::size_t>(cut.part[part].leaf)]++] = {
+                    static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(box), part};
+    }
+    std::rotate(boxes.start.begin(), boxes.start.end() - 1, boxes.start.end());
+    boxes.start.front() = 0;
+}
+
+void deliver_boxes(const PassOptions& options, const Boxes& boxes, grid::Levels& levels)
+{
+    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+        add_skins(boxes, n, levels);
+        for (std::uint32_t a = boxes.start[n]; a < boxes.start[n + 1]; ++a) {
+            const Boxes::Arrival& arrival = boxes.arrival[a];
+            const CutBoxes& cut = boxes.cut[arrival.home];
+            scatter_part(cut.part[arrival.part], cut.gift[arrival.box], levels.sums(n));
+            if (options.transfer == Transfer::apic)
+                scatter_affine_part(cut.part[arrival.part], cut.gift[arrival.box], levels);
+        }
+    });
+}
+
+void scatter_boxes(const PassOptions& options, const LawTable& laws, Strays& strays,
+                   const particles::Particles& particles, grid::Levels& levels)
+{
+    prepare_boxes(levels, strays.boxes);
+    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
+        ReachMap map;
+        map_reach(options, levels, n, map);
+        scatter_leaf_boxes(options, laws, strays.refinement, particles, n, map, levels, strays.boxes);
+    });
+    sort_arrivals(strays);
+    deliver_boxes(options, strays.boxes, levels);
 }
 } // namespace transfer

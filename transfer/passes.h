@@ -70,6 +70,5 @@ void advance_and_scatter(const PassOptions& options, const LawTable& laws, Stray
 
 /// MUSL: update particle velocities and map their momentum again, with the weights of the step's beginning.
 /// @param levels  reads motion; writes the momentum of sum (mass stays)
-void remap_momentum(const PassOptions& options, const Strays& strays, particles::Particles& particles,
-                    grid::Levels& levels);
+void remap_momentum(const PassOptions& options, Strays& strays, particles::Particles& particles, grid::Levels& levels);
 } // namespace transfer

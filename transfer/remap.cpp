@@ -87,8 +87,7 @@ HangingRange hanging_for(const grid::Levels& levels, std::size_t leaf)
 }
 } // namespace
 
-void remap_momentum(const PassOptions& options, const Strays& strays, particles::Particles& particles,
-                    grid::Levels& levels)
+void remap_momentum(const PassOptions& options, Strays& strays, particles::Particles& particles, grid::Levels& levels)
 {
     if (uses_boxes(options)) return remap_boxes(options, strays, particles, levels);
     with_scheme(options, [&]<Formulation F, Transfer T>() {

@@ -12,7 +12,7 @@ void scatter(const PassOptions& options, const LawTable& laws, Strays& strays, c
              grid::Levels& levels)
 {
     if (options.transfer == Transfer::apic) grid::keep_affine(levels);
-    if (uses_boxes(options)) return scatter_boxes(options, laws, particles, levels, strays);
+    if (uses_boxes(options)) return scatter_boxes(options, laws, strays, particles, levels);
     core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
         scatter_leaf(options, laws, particles, n, levels);
         scatter_affine(options, particles, n, levels);

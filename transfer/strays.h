@@ -8,22 +8,13 @@
 #include "grid/levels.h"
 #include "grid/refinement.h"
 #include "particles/particles.h"
+#include "transfer/gimp_part.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace transfer
 {
-/// Basis `gimp`: particles whose box reaches into another leaf than the one they are stored under. That leaf adds their
-/// part itself, in the order of the list, so no sum has two writers.
-struct Visits
-{
-    std::vector<std::uint32_t> start;    // [leaf + 1] visitors of a leaf; sorted by (leaf, particle)
-    std::vector<std::uint32_t> particle; // [v]
-    std::vector<std::uint32_t> home;     // [v] leaf the particle is stored under
-    std::vector<Real> mean_pressure;     // [v] MPa, of its home cell
-};
-
 struct Strays
 {
     std::vector<std::uint32_t> particle; // sorted by (leaf, particle)
@@ -32,7 +23,7 @@ struct Strays
     std::vector<std::uint32_t> run;      // starts of equal-leaf runs, + 1 entry
     bool outside = false;                // one of them is in a cell that does not exist yet: reorder before use
     grid::Refinement refinement{1};      // where the leaf cells are
-    Visits visits;                       // gimp only; positions of the last scatter
+    Boxes boxes;                         // basis gimp; positions of the last scatter
 
     std::size_t size() const { return particle.size(); }
 };

@@ -64,9 +64,16 @@ struct Scheme
     Real nonlocal_radius = 0; // mm
 };
 
+solver::Numerics musl(solver::Numerics numerics)
+{
+    numerics.stress_update = solver::StressUpdate::musl;
+    return numerics;
+}
+
 const Scheme schemes[] = {
     {"updated", support::numerics(solver::Formulation::updated)},
     {"updated gimp", support::gimp_numerics(solver::Transfer::flip)},
+    {"updated gimp musl", musl(support::gimp_numerics(solver::Transfer::flip))},
     {"updated gimp apic", support::gimp_numerics(solver::Transfer::apic)},
     {"total", support::numerics(solver::Formulation::total)},
     {"nodal", support::nodal_numerics(solver::Precision::f64)},

@@ -1,7 +1,7 @@
-// Boxes of the basis gimp one by one: what the cutter makes of them against boxes cut by every plane of the finest
-// cells (tests/support/basis.h), on every topology; walls; same bits. Sums over many boxes: completeness, conservation,
-// reference and interface_affine tests.
-#include "transfer/gimp_box.h"
+// Boxes of the basis gimp one by one: weights in closed form against those of cut boxes, what the passes make of both
+// against boxes cut by every plane of the finest cells (tests/support/basis.h), on every topology; walls; same bits.
+// Sums over many boxes: completeness, conservation, reference and interface_affine tests.
+#include "transfer/gimp_weights.h"
 
 #include "grid/halo.h"
 #include "grid/interface.h"
@@ -9,7 +9,9 @@
 #include "tests/support/basis.h"
 #include "transfer/gimp_cover.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <map>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
@@ -42,31 +44,134 @@ Scene random_boxes(const support::Topology& topology, const transfer::PassOption
     return scene;
 }
 
-std::vector<transfer::BoxPart> parts_of(const Scene& scene, std::size_t p)
+/// A node seen from a particle; image nodes beyond walls lie where they are seen.
+struct NodeView
 {
-    const transfer::BoxCutter cutter(scene.options, scene.levels, scene.refinement);
-    std::size_t home = 0;
-    while (scene.levels.cell_start[(home + 1) * grid::leaf_cells] <= p) ++home;
-    transfer::BoxParts parts;
-    cutter.cut(scene.particles, p, home, parts);
-    EXPECT_FALSE(parts.outside);
-    return parts.part;
+    Real weight; // 1
+    Vec3 slope;  // 1/mm
+    Vec3 arm;    // mm
+};
+
+/// Three numbers for each node of every axis.
+template <class Axis>
+NodeView view_of(const Axis (&axis)[3], int i, int j, int k)
+{
+    const Axis &x = axis[0], &y = axis[1], &z = axis[2];
+    return {x.weight[i] * y.weight[j] * z.weight[k],
+            Vec3(x.slope[i] * y.weight[j] * z.weight[k], x.weight[i] * y.slope[j] * z.weight[k],
+                 x.weight[i] * y.weight[j] * z.slope[k]),
+            Vec3(x.arm[i], y.arm[j], z.arm[k])};
 }
 
-/// `visit(weight, slope, arm)` for all nodes of a part.
-template <class Visit>
-void for_nodes(const transfer::BoxPart& part, const Visit& visit)
+std::vector<NodeView> nodes_of_cut_box(const Scene& scene, std::size_t p)
 {
-    const transfer::BoxAxis &x = part.axis[0], &y = part.axis[1], &z = part.axis[2];
-    for (int i = 0; i < x.count; ++i)
-        for (int j = 0; j < y.count; ++j)
-            for (int k = 0; k < z.count; ++k)
-                visit(x.weight[i] * y.weight[j] * z.weight[k],
-                      Vec3(x.slope[i] * y.weight[j] * z.weight[k], x.weight[i] * y.slope[j] * z.weight[k],
-                           x.weight[i] * y.weight[j] * z.slope[k]),
-                      Vec3(x.arm[i], y.arm[j], z.arm[k]));
+    std::vector<transfer::BoxPart> parts;
+    EXPECT_TRUE((transfer::BoxCutter{scene.options, scene.levels, scene.refinement}.cut(scene.particles, p, parts)));
+    std::vector<NodeView> nodes;
+    for (const transfer::BoxPart& part : parts)
+        for (int n = 0; n < 8; ++n) nodes.push_back(view_of(part.axis, n >> 2, n >> 1 & 1, n & 1));
+    return nodes;
+}
+
+std::size_t home_of(const Scene& scene, std::size_t p)
+{
+    std::size_t home = 0;
+    while (scene.levels.cell_start[(home + 1) * grid::leaf_cells] <= p) ++home;
+    return home;
+}
+
+/// Weights in closed form; none if the map does not serve the box.
+std::vector<NodeView> nodes_of_whole_box(const Scene& scene, const transfer::ReachMap& map, std::size_t home,
+                                         std::size_t p)
+{
+    transfer::BoxWeights w;
+    transfer::box_weights<true>(transfer::box_frame(scene.options, scene.levels, home), scene.particles, p, 1, w);
+    if (!transfer::served(map, w, 0)) return {};
+    struct Axis
+    {
+        Real weight[3], slope[3], arm[3];
+    } axis[3];
+    for (int a = 0; a < 3; ++a)
+        for (int n = 0; n < 3; ++n)
+            axis[a].weight[n] = w.weight[a][n][0], axis[a].slope[n] = w.slope[a][n][0], axis[a].arm[n] = w.arm[a][n][0];
+    std::vector<NodeView> nodes;
+    const int code = w.code(0);
+    for (int i = 0; i < 2 + (code >> 2); ++i)
+        for (int j = 0; j < 2 + (code >> 1 & 1); ++j)
+            for (int k = 0; k < 2 + (code & 1); ++k) nodes.push_back(view_of(axis, i, j, k));
+    return nodes;
+}
+
+/// What served and cut boxes have in common: nodes by where they are, in half spacings of the finest level.
+std::map<std::array<long, 3>, NodeView> by_place(const Scene& scene, const std::vector<NodeView>& nodes)
+{
+    std::map<std::array<long, 3>, NodeView> sum;
+    const Real unit = scene.levels.spacing(scene.levels.count - 1);
+    for (const NodeView& node : nodes) {
+        std::array<long, 3> place{};
+        for (std::size_t a = 0; a < 3; ++a) place[a] = std::lround(node.arm[static_cast<int>(a)] * 1024 / unit);
+        const auto [entry, fresh] = sum.insert({place, node});
+        if (fresh) continue;
+        entry->second.weight += node.weight;
+        entry->second.slope += node.slope;
+    }
+    return sum;
+}
+
+/// What a scene's boxes are like.
+struct BoxCount
+{
+    int served = 0, cut = 0, in_wall = 0;
+};
+
+/// Both ways for every particle of the scene that both serve.
+void expect_same_weights(const Scene& scene, BoxCount& count)
+{
+    std::vector<transfer::ReachMap> maps(scene.levels.leaves.size());
+    for (std::size_t n = 0; n < maps.size(); ++n) transfer::map_reach(scene.options, scene.levels, n, maps[n]);
+    const Real h = scene.levels.spacing0;
+    for (std::size_t p = 0; p < scene.particles.size(); ++p) {
+        const std::size_t home = home_of(scene, p);
+        const auto whole = by_place(scene, nodes_of_whole_box(scene, maps[home], home, p));
+        if (whole.empty()) {
+            ++count.cut;
+            continue;
+        }
+        ++count.served;
+        const auto cut = by_place(scene, nodes_of_cut_box(scene, p));
+        ASSERT_EQ(whole.size(), cut.size());
+        for (auto a = whole.begin(), b = cut.begin(); a != whole.end(); ++a, ++b) {
+            ASSERT_NEAR(a->second.weight, b->second.weight, 1e-12);
+            ASSERT_LT((a->second.slope - b->second.slope).norm() * h, 1e-11);
+            ASSERT_LT((a->second.arm - b->second.arm).norm(), 1e-12 * h);
+        }
+        for (const grid::WallPlane& wall : scene.options.walls) {
+            const Real plane = scene.levels.origin[wall.axis] + wall.node0 * h;
+            const Real x = scene.particles.position[static_cast<std::size_t>(wall.axis)][p];
+            const Real half = scene.levels.spacing(scene.particles.size_level[p]) / (2 * scene.options.per_axis);
+            if (std::abs(x - plane) < half) ++count.in_wall;
+        }
+    }
 }
 } // namespace
+
+// No seam: boxes served by the tile of their leaf have the weights the cutter gives them.
+TEST(Gimp, weights_in_closed_form_are_those_of_cut_boxes)
+{
+    for (const support::Topology& topology : support::topologies())
+        for (const Transfer transfer : {Transfer::flip, Transfer::apic})
+            for (const int per_axis : {1, 2}) {
+                SCOPED_TRACE(topology.name);
+                transfer::PassOptions options = boxes(transfer);
+                options.per_axis = per_axis;
+                BoxCount count;
+                expect_same_weights(random_boxes(topology, options, true), count);
+                EXPECT_GT(count.served, topology.cells.size() / 4);
+                if (topology.refinement.levels() > 1 && topology.name != support::topologies().back().name) {
+                    EXPECT_GT(count.cut, 0);
+                }
+            }
+}
 
 // A.4, 1.
 TEST(Gimp, weights_are_a_partition_of_unity_and_linearly_complete)
@@ -77,17 +182,22 @@ TEST(Gimp, weights_are_a_partition_of_unity_and_linearly_complete)
                 transfer::PassOptions options = boxes(transfer);
                 options.per_axis = per_axis;
                 const Scene scene = random_boxes(topology, options, true);
+                std::vector<transfer::ReachMap> maps(scene.levels.leaves.size());
+                for (std::size_t n = 0; n < maps.size(); ++n)
+                    transfer::map_reach(scene.options, scene.levels, n, maps[n]);
                 for (std::size_t p = 0; p < scene.particles.size(); ++p) {
                     Real unity = 0;
                     Vec3 centre = Vec3::Zero(), none = Vec3::Zero();
                     Eigen::Matrix3d identity = Eigen::Matrix3d::Zero();
-                    for (const transfer::BoxPart& part : parts_of(scene, p))
-                        for_nodes(part, [&](Real w, const Vec3& slope, const Vec3& arm) {
-                            unity += w;
-                            centre += w * arm;
-                            none += slope;
-                            identity += arm * slope.transpose();
-                        });
+                    const std::size_t home = home_of(scene, p);
+                    std::vector<NodeView> nodes = nodes_of_whole_box(scene, maps[home], home, p);
+                    if (nodes.empty()) nodes = nodes_of_cut_box(scene, p);
+                    for (const NodeView& node : nodes) {
+                        unity += node.weight;
+                        centre += node.weight * node.arm;
+                        none += node.slope;
+                        identity += node.arm * node.slope.transpose();
+                    }
                     const Real h = scene.levels.spacing0;
                     ASSERT_NEAR(unity, 1, 1e-12) << topology;
                     ASSERT_LT(centre.norm(), 1e-12 * h) << topology;
@@ -310,6 +420,22 @@ TEST(Gimp, half_a_block_moves_like_the_whole_one)
             }
 }
 
+TEST(Gimp, weights_in_closed_form_reach_through_walls)
+{
+    const support::Topology fine =
+        support::topology_of("two levels", 2, 2, [](const auto& key) { return key.cell[1] < 0; });
+    BoxCount count;
+    for (const Transfer transfer : {Transfer::flip, Transfer::apic}) {
+        transfer::PassOptions options = boxes(transfer);
+        options.walls = {{0, 0}};
+        expect_same_weights(mirrored_block(fine, options, false), count);
+        options.walls = {{0, 0}, {1, 2}, {2, -2}}; // faces of the block: an edge and a corner of images
+        expect_same_weights(mirrored_block(fine, options, false), count);
+    }
+    EXPECT_GT(count.served, 1000);
+    EXPECT_GT(count.in_wall, 100);
+}
+
 // Fine particles at a free surface reach into coarse cells without particles: those become fine, others stay.
 TEST(Gimp, empty_coarse_cells_that_fine_boxes_reach_are_refined)
 {
@@ -325,14 +451,10 @@ TEST(Gimp, empty_coarse_cells_that_fine_boxes_reach_are_refined)
     EXPECT_FALSE(scene.refinement.subdivided(0, metal)); // coarse particles sit in it
     EXPECT_FALSE(scene.refinement.subdivided(0, far));
     support::order(scene);
-    const transfer::BoxCutter cutter(scene.options, scene.levels, scene.refinement);
     EXPECT_FALSE(scene.strays.outside);
-    for (std::size_t n = 0; n < scene.levels.leaves.size(); ++n)
-        for (std::uint32_t p = scene.levels.cell_start[n * grid::leaf_cells];
-             p < scene.levels.cell_start[(n + 1) * grid::leaf_cells]; ++p)
-        {
-            transfer::BoxParts parts;
-            cutter.cut(scene.particles, p, n, parts);
-            ASSERT_FALSE(parts.outside);
-        }
+    for (std::size_t p = 0; p < scene.particles.size(); ++p) {
+        std::vector<transfer::BoxPart> parts;
+        ASSERT_TRUE(
+            (transfer::BoxCutter{scene.options, scene.levels, scene.refinement}.cut(scene.particles, p, parts)));
+    }
 }
