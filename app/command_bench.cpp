@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <string>
 #include <thread>
 #include <vector>
 
@@ -24,7 +23,6 @@ struct Options
     int cells = 50;
     int steps = 15;
     std::vector<int> threads;
-    std::vector<std::string> only; // words a scheme's row must hold
 };
 
 const std::vector<BenchCase>& schemes()
@@ -64,15 +62,6 @@ const char* name(solver::Precision p)
 const char* name(solver::Basis b)
 {
     return b == solver::Basis::gimp ? "gimp" : "trilinear";
-}
-
-/// Whether the row of a scheme holds every word asked for, such as "updated" and "usl".
-bool chosen_row(const BenchCase& scheme, const std::vector<std::string>& words)
-{
-    const std::vector<std::string> row{name(scheme.basis), name(scheme.formulation), name(scheme.stress_update),
-                                       name(scheme.transfer), name(scheme.precision)};
-    return std::all_of(words.begin(), words.end(),
-                       [&](const std::string& word) { return std::find(row.begin(), row.end(), word) != row.end(); });
 }
 
 BenchResult measured(const BenchCase& scheme, const Options& options, int threads,
@@ -124,7 +113,6 @@ int bench(const Options& options)
                        "form.", "upd.", "tran.", "prec.", "levels", "particles", "M steps/s", "B/step", "flop/step",
                        "roof");
         for (const BenchCase& scheme : schemes()) {
-            if (!chosen_row(scheme, options.only)) continue;
             const BenchResult r = measured(scheme, options, t, limits);
             all.push_back(entry(r, limits));
             if (!options.json)
@@ -152,9 +140,6 @@ void add_bench(CLI::App& program, Command& chosen)
         ->check(CLI::Range(1, 10000));
     command->add_option("--threads", options->threads, "thread counts (default: 1 and all)")
         ->check(CLI::PositiveNumber);
-    command->add_option("--only", options->only, "only schemes with these words in their row, such as: updated usl")
-        ->check(CLI::IsMember(
-            {"trilinear", "gimp", "total", "updated", "usl", "musl", "nodal", "flip", "apic", "f64", "mixed"}));
     command->callback([&chosen, options] { chosen = [options] { return bench(*options); }; });
 }
 } // namespace app
