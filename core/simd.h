@@ -218,10 +218,12 @@ T sum(Pack<T, N> a)
     if constexpr (N == 1) {
         return a.v[0];
     } else {
-        typename Pack<T, N / 2>::Lanes lower, upper;
-        std::memcpy(&lower, &a.v, sizeof(lower));
-        std::memcpy(&upper, reinterpret_cast<const char*>(&a.v) + sizeof(lower), sizeof(upper));
-        return sum(Pack<T, N / 2>(lower + upper));
+        return [&]<int... I>(std::integer_sequence<int, I...>) {
+            const typename Pack<T, N / 2>::Lanes lower = __builtin_shufflevector(a.v, a.v, I...);
+            const typename Pack<T, N / 2>::Lanes upper = __builtin_shufflevector(a.v, a.v, (N / 2 + I)...);
+            return sum(Pack<T, N / 2>(lower + upper));
+        }
+        (std::make_integer_sequence<int, N / 2>{});
     }
 }
 

@@ -10,8 +10,8 @@ namespace io
 {
 namespace
 {
-template <class T>
-void store(const std::string& path, const std::vector<T>& values, int columns, Hdf5Writer& file)
+template <class T, class Allocator>
+void store(const std::string& path, const std::vector<T, Allocator>& values, int columns, Hdf5Writer& file)
 {
     file.dataset<T>(path, values, columns, Hdf5Filter::checksum);
 }
@@ -111,8 +111,9 @@ void store_particles(const particles::Particles& particles, Hdf5Writer& file)
 particles::Particles load_particles(const Hdf5Reader& file)
 {
     particles::Particles particles;
-    const auto load_column = [&]<class T>(const std::string& name, std::vector<T>& column) {
-        column = file.dataset<T>("/particles/" + name);
+    const auto load_column = [&]<class T, class Allocator>(const std::string& name, std::vector<T, Allocator>& column) {
+        const std::vector<T> stored = file.dataset<T>("/particles/" + name);
+        column.assign(stored.begin(), stored.end());
     };
     particles::Particles::for_each_real(particles, load_column);
     particles::Particles::for_each_integer(particles, load_column);

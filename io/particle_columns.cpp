@@ -11,6 +11,11 @@ namespace io
 {
 namespace
 {
+std::vector<Real> copied(const particles::Column& column)
+{
+    return {column.begin(), column.end()};
+}
+
 using particles::Crack;
 using particles::Particles;
 
@@ -83,7 +88,7 @@ std::vector<Real> particle_points(const Particles& particles)
 
 std::vector<Real> particle_volumes(const Particles& particles)
 {
-    std::vector<Real> volume = particles.rest_volume;
+    std::vector<Real> volume = copied(particles.rest_volume);
     const bool total = !particles.deformation_gradient[0].empty();
     for (std::size_t p = 0; p < volume.size(); ++p) {
         core::Mat<Real> F = core::identity<Real>();
@@ -115,14 +120,14 @@ std::vector<Real> particle_column(const ParticleField& field, const Particles& p
         return from_cracks(particles, 1, [](const Crack& crack, std::size_t) { return static_cast<Real>(crack.mode); });
     if (name == "crack_normal")
         return from_cracks(particles, 3, [](const Crack& crack, std::size_t axis) { return crack.normal[axis]; });
-    if (name == "eq_plastic_strain") return particles.eq_plastic_strain;
+    if (name == "eq_plastic_strain") return copied(particles.eq_plastic_strain);
     if (name == "von_mises") return von_mises(particles);
     if (name == "stress") return interleave(particles.stress);
     if (name == "velocity") return interleave(particles.velocity);
     if (name == "displacement") return displacement(particles);
     if (name == "level") return home_level(particles, levels);
     if (name == "id") return as_real(particles.id);
-    if (name == "mass") return particles.mass;
+    if (name == "mass") return copied(particles.mass);
     if (name == "volume") return particle_volumes(particles);
     CLEAVE_ASSERTS(false); // a field of the table without a column here
     return {};

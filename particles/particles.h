@@ -5,6 +5,7 @@
 /// is the order of their home cells (level, leaf, cell), see particles/order.h.
 #pragma once
 
+#include "core/column_allocator.h"
 #include "core/crack.h"
 #include "core/real.h"
 
@@ -16,7 +17,7 @@
 
 namespace particles
 {
-using Column = std::vector<Real>;
+using Column = std::vector<Real, core::ColumnAllocator<Real>>;
 
 using core::Crack;
 

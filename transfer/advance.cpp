@@ -18,17 +18,22 @@ void with_stress_update(const PassOptions& options, const Visit& visit)
     });
 }
 
-void advance_leaf(const PassOptions& options, const LawTable& laws, std::size_t leaf, const grid::Levels& levels,
+/// Cell by cell: advance, and scatter while the particles are still in the nearest cache.
+void advance_leaf(const PassOptions& options, const LawTable& laws, std::size_t leaf, grid::Levels& levels,
                   particles::Particles& particles, LeafOutcome& outcome)
 {
+    clear_sums(leaf, levels);
     const std::uint32_t* start = levels.cell_start.data() + leaf * grid::leaf_cells;
     const LeafFrame frame = leaf_frame(levels, leaf);
     const std::vector<AffineChunk> affine = affine_of_residents(options, levels, leaf, particles);
     with_stress_update(options, [&]<Formulation F, Transfer T, StressUpdate S>() {
         for (int c = 0; c < grid::leaf_cells; ++c)
-            if (start[c] != start[c + 1])
-                advance_cell<F, T, S>(options, laws, cell_frame(frame, c), Visitors::residents, levels.motions(leaf),
-                                      start[c], start[c + 1], particles, outcome);
+            if (start[c] != start[c + 1]) {
+                const CellFrame cell = cell_frame(frame, c);
+                advance_cell<F, T, S>(options, laws, cell, Visitors::residents, levels.motions(leaf), start[c],
+                                      start[c + 1], particles, outcome);
+                scatter_residents<F, T>(cell, laws, particles, start[c], start[c + 1], levels.sums(leaf));
+            }
     });
     store_affine(affine, particles);
 }
@@ -90,7 +95,6 @@ void advance_and_scatter(const PassOptions& options, const LawTable& laws, Stray
     advance_strays(options, laws, strays, levels, particles, outcome);
     core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
         advance_leaf(options, laws, n, levels, particles, outcome[n]);
-        scatter_leaf(options, laws, particles, n, levels);
         scatter_affine(options, particles, n, levels);
     });
     add_work(outcome, leaf_work);

@@ -87,7 +87,7 @@ struct Kinematics
 /// @param g       gradient that strains the particles [1/ms], rows: component, columns: direction
 /// @param affine  new matrices of APIC [1/ms]; read with stress last only
 /// @param change  `change(a)`: change of velocity component a [mm/ms]; called for FLIP with stress last only
-template <Formulation F, Transfer T, StressUpdate S, class Change>
+template <Formulation F, Transfer T, StressUpdate S, bool Plain = false, class Change>
 [[gnu::always_inline]] inline void
 carry(const PassOptions& options, const LawTable& laws, const CellFrame& frame, Visitors visitors,
       const core::Vec<Lanes>& x, const core::Vec<Lanes>& grid_velocity, core::Mat<Lanes>& g,
@@ -118,7 +118,7 @@ carry(const PassOptions& options, const LawTable& laws, const CellFrame& frame, 
     }
     k.volume = load(particles.rest_volume, begin, count);
     for (Lanes& entry : g.m) entry *= dt;
-    k.averaged = k.here & law_lanes(laws, particles, begin, count).averaged;
+    k.averaged = k.here & law_lanes<Plain>(laws, particles, begin, count).averaged;
     if constexpr (F == Formulation::total) {
         k.gradient_increment = advance_deformation(g, begin, count, particles, k.volume);
     } else {
@@ -137,18 +137,19 @@ carry(const PassOptions& options, const LawTable& laws, const CellFrame& frame, 
         if (visitors != Visitors::stray && core::any(left)) note_leavers(left, begin, count, particles, outcome);
     }
     k.dilatation = k.gradient_increment(0, 0) + k.gradient_increment(1, 1) + k.gradient_increment(2, 2);
-    if (laws.any_decohesion && !particles.cracks.empty()) k.averaged = k.averaged & intact(particles, begin, count);
+    if (!Plain && laws.any_decohesion && !particles.cracks.empty())
+        k.averaged = k.averaged & intact(particles, begin, count);
 }
 
 /// Stage one: move the particles, update velocity and deformation, leave what the material needs in `k`.
-template <Formulation F, Transfer T, StressUpdate S>
+template <Formulation F, Transfer T, StressUpdate S, bool Plain>
 [[gnu::always_inline]] inline void move(const PassOptions& options, const LawTable& laws, const CellFrame& frame,
                                         Visitors visitors, const CellField& field, std::size_t begin, int count,
                                         particles::Particles& particles, LeafOutcome& outcome, Kinematics& k)
 {
     const auto x = load_all<core::Vec<Lanes>>(particles.position, begin, count);
     LocalPosition<Lanes> at;
-    k.here = present<F>(visitors, particles, begin, count);
+    k.here = present<F, Plain>(visitors, particles, begin, count);
     if constexpr (F == Formulation::total) {
         at = local_position(frame, load_all<core::Vec<Lanes>>(particles.rest_position, begin, count));
     } else {
@@ -165,7 +166,8 @@ template <Formulation F, Transfer T, StressUpdate S>
     {
         return value(field, change_column + a, at);
     };
-    carry<F, T, S>(options, laws, frame, visitors, x, grid_velocity, g, g, change, begin, count, particles, outcome, k);
+    carry<F, T, S, Plain>(options, laws, frame, visitors, x, grid_velocity, g, g, change, begin, count, particles,
+                          outcome, k);
 }
 
 /// Strain increment with the cell's mean dilatation on averaged lanes.
@@ -179,13 +181,14 @@ template <Formulation F, Transfer T, StressUpdate S>
 }
 
 /// Stage two: stress, plastic strain, decohesion.
+template <bool Plain>
 [[gnu::always_inline]] inline void update_stress(const PassOptions& options, const LawTable& laws, Real per_spacing,
                                                  Kinematics& k, Real mean_dilatation, std::size_t begin, int count,
                                                  particles::Particles& particles, LeafOutcome& outcome)
 {
     const auto old = load_all<core::Sym<Lanes>>(particles.stress, begin, count);
     const Lanes old_strain = load(particles.eq_plastic_strain, begin, count);
-    const LawLanes law = law_lanes(laws, particles, begin, count);
+    const LawLanes law = law_lanes<Plain>(laws, particles, begin, count);
     const core::Sym<Lanes> strain = strain_increment(k, mean_dilatation);
     const core::Mat<Lanes> rotation = material::incremental_rotation(material::spin_increment(k.gradient_increment));
     const core::Sym<Lanes> trial = material::elastic_trial(
@@ -202,7 +205,7 @@ template <Formulation F, Transfer T, StressUpdate S>
         outcome.work.plastic += core::sum(plastic_work);
         return;
     }
-    if (!particles.cracks.empty()) {
+    if (!Plain && !particles.cracks.empty()) {
         const SeparatingChunk chunk{options, laws,     per_spacing, begin,      count,   k.here,
                                     strain,  rotation, old,         old_strain, k.volume};
         outcome.work.decohesion += separate_lanes(chunk, particles, plastic_work);
@@ -221,7 +224,7 @@ inline void unpack_gradients(const Kinematics* k, std::size_t count, core::Mat<R
 } // namespace detail
 
 /// Advance the particles [begin, end) of one cell; `move(first, count, k)` is stage one of a chunk.
-template <class Move>
+template <bool Plain = false, class Move>
 [[gnu::always_inline]] inline void
 advance_group(const PassOptions& options, const LawTable& laws, const CellFrame& frame, std::size_t begin,
               std::size_t end, particles::Particles& particles, LeafOutcome& outcome, const Move& move)
@@ -237,7 +240,7 @@ advance_group(const PassOptions& options, const LawTable& laws, const CellFrame&
         for (std::size_t p = first; p < last; p += Lanes::lanes, ++c) {
             const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
             // Two copies: without a tail the compiler drops every test of `count`.
-            count == Lanes::lanes ? move(p, Lanes::lanes, k[c]) : move(p, count, k[c]);
+            Plain || count == Lanes::lanes ? move(p, Lanes::lanes, k[c]) : move(p, count, k[c]);
             volume += core::sum(core::select(k[c].averaged, k[c].volume, Lanes(Real(0))));
             dilated += core::sum(core::select(k[c].averaged, k[c].volume * k[c].dilatation, Lanes(Real(0))));
         }
@@ -246,10 +249,11 @@ advance_group(const PassOptions& options, const LawTable& laws, const CellFrame&
         c = 0;
         for (std::size_t p = first; p < last; p += Lanes::lanes, ++c) {
             const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
-            count == Lanes::lanes ? detail::update_stress(options, laws, frame.per_spacing, k[c], mean_dilatation, p,
-                                                          Lanes::lanes, particles, outcome)
-                                  : detail::update_stress(options, laws, frame.per_spacing, k[c], mean_dilatation, p,
-                                                          count, particles, outcome);
+            Plain || count == Lanes::lanes
+                ? detail::update_stress<Plain>(options, laws, frame.per_spacing, k[c], mean_dilatation, p, Lanes::lanes,
+                                               particles, outcome)
+                : detail::update_stress<Plain>(options, laws, frame.per_spacing, k[c], mean_dilatation, p, count,
+                                               particles, outcome);
             near_onset = near_onset || (laws.any_decohesion && core::any(k[c].may_start));
         }
         if (near_onset) {
@@ -263,18 +267,31 @@ advance_group(const PassOptions& options, const LawTable& laws, const CellFrame&
     }
 }
 
+namespace detail
+{
+template <Formulation F, Transfer T, StressUpdate S, bool Plain>
+[[gnu::noinline]] void advance_served(const PassOptions& options, const LawTable& laws, const CellFrame& frame,
+                                      Visitors visitors, const grid::NodeMotion* tile, std::size_t begin,
+                                      std::size_t end, particles::Particles& particles, LeafOutcome& outcome)
+{
+    CellField field;
+    read_cell(tile + frame.node, field);
+    advance_group<Plain>(
+        options, laws, frame, begin, end, particles,
+        outcome, [&](std::size_t p, int count, Kinematics& k) __attribute__((always_inline)) {
+            move<F, T, S, Plain>(options, laws, frame, visitors, field, p, count, particles, outcome, k);
+        });
+}
+} // namespace detail
+
 /// Advance the particles [begin, end) that are served.
 template <Formulation F, Transfer T, StressUpdate S>
 void advance_cell(const PassOptions& options, const LawTable& laws, const CellFrame& frame, Visitors visitors,
                   const grid::NodeMotion* tile, std::size_t begin, std::size_t end, particles::Particles& particles,
                   LeafOutcome& outcome)
 {
-    CellField field;
-    read_cell(tile + frame.node, field);
-    advance_group(
-        options, laws, frame, begin, end, particles,
-        outcome, [&](std::size_t p, int count, detail::Kinematics& k) __attribute__((always_inline)) {
-            detail::move<F, T, S>(options, laws, frame, visitors, field, p, count, particles, outcome, k);
-        });
+    visitors == Visitors::residents && is_plain(particles, begin, end)
+        ? detail::advance_served<F, T, S, true>(options, laws, frame, visitors, tile, begin, end, particles, outcome)
+        : detail::advance_served<F, T, S, false>(options, laws, frame, visitors, tile, begin, end, particles, outcome);
 }
 } // namespace transfer

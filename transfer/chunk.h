@@ -124,11 +124,39 @@ enum class Visitors
     everyone,  // all particles stored under the cell (gimp)
 };
 
+/// A group of particles is plain when it fills its vectors, nobody in it has left the cell or has decohesion state, and
+/// all follow one law: most cells of most steps. Kernels are compiled for plain groups apart, so that tests of single
+/// particles and masks cost nothing there; the arithmetic is the same.
+inline bool is_plain(const particles::Particles& particles, std::size_t begin, std::size_t end)
+{
+    if ((end - begin) % Lanes::lanes != 0) return false;
+    std::uint8_t away = 0, other = 0;
+    const std::uint8_t law = particles.material[begin];
+    for (std::size_t p = begin; p < end; p += Lanes::lanes)
+        for (std::size_t i = 0; i < Lanes::lanes; ++i) {
+            away = static_cast<std::uint8_t>(away | particles.away[p + i]);
+            other = static_cast<std::uint8_t>(other | (particles.material[p + i] ^ law));
+        }
+    if ((away | other) != 0) return false;
+    if (particles.cracks.empty()) return true;
+    std::int32_t all = -1;
+    for (std::size_t p = begin; p < end; ++p) all &= particles.crack[p];
+    return all < 0;
+}
+
+/// Every lane.
+inline LaneMask all_lanes()
+{
+    const Lanes zero(Real(0));
+    return zero >= zero;
+}
+
 /// Lanes to serve among the first `count`. In the total formulation nobody ever leaves.
-template <Formulation F>
+template <Formulation F, bool Plain = false>
 [[gnu::always_inline]] inline LaneMask present(Visitors visitors, const particles::Particles& particles,
                                                std::size_t begin, int count)
 {
+    if constexpr (Plain) return all_lanes();
     LaneMask mask = core::first_lanes<Real, Lanes::lanes>(count);
     if constexpr (F == Formulation::updated) {
         if (visitors == Visitors::residents && any_set(particles.away.data() + begin, count))
@@ -161,31 +189,34 @@ struct LawLanes
     }
 }
 
+template <bool Plain = false>
 [[gnu::always_inline]] inline LawLanes law_lanes(const LawTable& laws, const particles::Particles& particles,
                                                  std::size_t begin, int count)
 {
     const std::uint8_t* index = particles.material.data() + begin;
     bool same = true;
-    for (int i = 1; i < count; ++i) same = same && index[i] == index[0];
+    if constexpr (!Plain)
+        for (int i = 1; i < count; ++i) same = same && index[i] == index[0];
     const LawConstants& c = laws.constants[index[0]];
     const Lanes zero(Real(0));
     LawLanes lanes{Lanes(c.lame),           Lanes(c.shear),
                    Lanes(c.yield),          Lanes(c.hardening),
                    Lanes(c.per_overstress), Lanes(c.tensile_onset),
-                   Lanes(c.shear_onset),    c.averaged_dilatation ? zero >= zero : zero < zero};
+                   Lanes(c.shear_onset),    c.averaged_dilatation ? all_lanes() : zero < zero};
     if (same) return lanes;
     mix_laws(laws, index, count, lanes);
     return lanes;
 }
 
 /// Lanes of particles without decohesion state.
+template <bool Plain = false>
 [[gnu::always_inline]] inline LaneMask intact(const particles::Particles& particles, std::size_t begin, int count)
 {
+    if constexpr (Plain) return all_lanes();
     const std::int32_t* crack = particles.crack.data() + begin;
     std::int32_t all = -1;
     for (int i = 0; i < count; ++i) all &= crack[i];
-    const Lanes zero(Real(0));
-    if (all < 0) return zero >= zero; // the sign bit survives only if every index is negative
+    if (all < 0) return all_lanes(); // the sign bit survives only if every index is negative
     return !lanes_where([&](int i) { return crack[i] >= 0; }, count);
 }
 } // namespace transfer

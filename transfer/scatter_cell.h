@@ -24,7 +24,7 @@ struct Staged
 {
     static constexpr int lanes = Lanes::lanes;
     alignas(64) Real xi[lanes], eta[lanes], zeta[lanes], mass[lanes];
-    alignas(64) Real velocity[3][lanes];
+    alignas(64) Real momentum[3][lanes];
     alignas(64) Real stress_volume[9][lanes];
     LaneMask here;
 };
@@ -66,7 +66,7 @@ inline void reduce_to_solid(const particles::Particles& particles, std::size_t b
     }
 }
 
-template <Formulation F>
+template <Formulation F, bool Plain>
 [[gnu::always_inline]] inline void stage(const CellFrame& frame, Visitors visitors, const LawTable& laws,
                                          const CellPressure& pressure, const particles::Particles& particles,
                                          std::size_t begin, int count, Staged& staged)
@@ -76,21 +76,22 @@ template <Formulation F>
     at.xi.store(staged.xi);
     at.eta.store(staged.eta);
     at.zeta.store(staged.zeta);
-    load(particles.mass, begin, count).store(staged.mass);
-    for (std::size_t a = 0; a < 3; ++a) load(particles.velocity[a], begin, count).store(staged.velocity[a]);
+    const Lanes mass = load(particles.mass, begin, count);
+    mass.store(staged.mass);
+    for (std::size_t a = 0; a < 3; ++a) (mass * load(particles.velocity[a], begin, count)).store(staged.momentum[a]);
     const auto stress = load_all<core::Sym<Lanes>>(particles.stress, begin, count);
     Lanes volume = load(particles.rest_volume, begin, count);
-    if (laws.any_decohesion && !particles.cracks.empty()) reduce_to_solid(particles, begin, count, volume);
+    if (!Plain && laws.any_decohesion && !particles.cracks.empty()) reduce_to_solid(particles, begin, count, volume);
     if constexpr (F == Formulation::total) {
         const auto f = load_all<core::Mat<Lanes>>(particles.deformation_gradient, begin, count);
         store_matrix(volume_piola(volume, stress, f), staged.stress_volume);
     } else {
-        const LawLanes law = law_lanes(laws, particles, begin, count);
-        const LaneMask averaged = law.averaged & intact(particles, begin, count);
+        const LawLanes law = law_lanes<Plain>(laws, particles, begin, count);
+        const LaneMask averaged = law.averaged & intact<Plain>(particles, begin, count);
         volume *= load(particles.volume_ratio, begin, count);
         store_matrix(volume_stress(volume, stress, averaged, pressure.mean()), staged.stress_volume);
     }
-    staged.here = present<F>(visitors, particles, begin, count);
+    staged.here = present<F, Plain>(visitors, particles, begin, count);
 }
 
 template <Transfer T>
@@ -98,11 +99,10 @@ template <Transfer T>
                                                 const particles::Particles& particles, std::size_t p, CellSum& sum)
 {
     const CornerWeights weights = corner_weights(staged.xi[i], staged.eta[i], staged.zeta[i]);
-    const Real m = staged.mass[i];
-    sum.mass += NodeLanes(m) * weights.w;
-    add_momentum(weights, m * staged.velocity[0][i], m * staged.velocity[1][i], m * staged.velocity[2][i], sum);
+    sum.mass += NodeLanes(staged.mass[i]) * weights.w;
+    add_momentum(weights, staged.momentum[0][i], staged.momentum[1][i], staged.momentum[2][i], sum);
     if constexpr (T == Transfer::apic) {
-        const Real per_slope = m / frame.per_spacing;
+        const Real per_slope = staged.mass[i] / frame.per_spacing;
         add_affine(
             weights, staged.xi[i], staged.eta[i], staged.zeta[i],
             [&](int a, int b) { return per_slope * particles.affine[static_cast<std::size_t>(3 * a + b)][p]; }, sum);
@@ -113,13 +113,15 @@ template <Transfer T>
 } // namespace detail
 
 /// Add the volume and pressure of the particles [begin, end) that are served and take part in the average.
+template <bool Plain = false>
 inline void add_pressure(Visitors visitors, const LawTable& laws, const particles::Particles& particles,
                          std::size_t begin, std::size_t end, CellPressure& pressure)
 {
     for (std::size_t p = begin; p < end; p += Lanes::lanes) {
         const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, end - p));
-        const LaneMask counts = present<Formulation::updated>(visitors, particles, p, count) &
-                                intact(particles, p, count) & law_lanes(laws, particles, p, count).averaged;
+        const LaneMask counts = present<Formulation::updated, Plain>(visitors, particles, p, count) &
+                                intact<Plain>(particles, p, count) &
+                                law_lanes<Plain>(laws, particles, p, count).averaged;
         const Lanes volume = load(particles.rest_volume, p, count) * load(particles.volume_ratio, p, count);
         const Lanes mean = (load(particles.stress[0], p, count) + load(particles.stress[1], p, count) +
                             load(particles.stress[2], p, count)) *
@@ -129,25 +131,39 @@ inline void add_pressure(Visitors visitors, const LawTable& laws, const particle
     }
 }
 
+namespace detail
+{
+template <Formulation F, Transfer T, bool Plain>
+[[gnu::noinline]] void scatter_served(const CellFrame& frame, Visitors visitors, const LawTable& laws,
+                                      const particles::Particles& particles, std::size_t begin, std::size_t end,
+                                      grid::NodeSum* tile)
+{
+    CellPressure pressure;
+    if constexpr (F == Formulation::updated) add_pressure<Plain>(visitors, laws, particles, begin, end, pressure);
+    CellSum sum;
+    clear(sum);
+    for (std::size_t p = begin; p < end; p += Lanes::lanes) {
+        const int count = Plain ? Lanes::lanes : static_cast<int>(std::min<std::size_t>(Lanes::lanes, end - p));
+        Staged staged;
+        // Two copies: without a tail the compiler drops every test of `count`.
+        Plain || count == Lanes::lanes
+            ? stage<F, Plain>(frame, visitors, laws, pressure, particles, p, Lanes::lanes, staged)
+            : stage<F, Plain>(frame, visitors, laws, pressure, particles, p, count, staged);
+        for (int i = 0; i < count; ++i)
+            if (Plain || F == Formulation::total || staged.here[i])
+                add_particle<T>(frame, staged, i, particles, p + static_cast<std::size_t>(i), sum);
+    }
+    write_cell(sum, frame.per_spacing, tile + frame.node);
+}
+} // namespace detail
+
 /// Scatter the particles [begin, end) that are served.
 template <Formulation F, Transfer T>
 void scatter_cell(const CellFrame& frame, Visitors visitors, const LawTable& laws,
                   const particles::Particles& particles, std::size_t begin, std::size_t end, grid::NodeSum* tile)
 {
-    CellPressure pressure;
-    if constexpr (F == Formulation::updated) add_pressure(visitors, laws, particles, begin, end, pressure);
-    CellSum sum;
-    clear(sum);
-    for (std::size_t p = begin; p < end; p += Lanes::lanes) {
-        const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, end - p));
-        detail::Staged staged;
-        // Two copies: without a tail the compiler drops every test of `count`.
-        count == Lanes::lanes ? detail::stage<F>(frame, visitors, laws, pressure, particles, p, Lanes::lanes, staged)
-                              : detail::stage<F>(frame, visitors, laws, pressure, particles, p, count, staged);
-        for (int i = 0; i < count; ++i)
-            if (F == Formulation::total || staged.here[i])
-                detail::add_particle<T>(frame, staged, i, particles, p + static_cast<std::size_t>(i), sum);
-    }
-    write_cell(sum, frame.per_spacing, tile + frame.node);
+    visitors == Visitors::residents && is_plain(particles, begin, end)
+        ? detail::scatter_served<F, T, true>(frame, visitors, laws, particles, begin, end, tile)
+        : detail::scatter_served<F, T, false>(frame, visitors, laws, particles, begin, end, tile);
 }
 } // namespace transfer

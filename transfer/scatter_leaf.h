@@ -1,10 +1,19 @@
 /// Scatter of whole leaves; separate functions, never inlined into a pass, so that every caller gets the same bits.
 #pragma once
 
+#include "transfer/chunk.h"
 #include "transfer/passes.h"
 
 namespace transfer
 {
+/// Zero the leaf's sums.
+void clear_sums(std::size_t leaf, grid::Levels& levels);
+
+/// Scatter the particles [begin, end) of one cell that are at home: what scatter_leaf does cell by cell.
+template <Formulation F, Transfer T>
+void scatter_residents(const CellFrame& frame, const LawTable& laws, const particles::Particles& particles,
+                       std::size_t begin, std::size_t end, grid::NodeSum* tile);
+
 /// Zero the leaf's sums and scatter the particles at home in its cells. What hanging corners collect with APIC is
 /// another visit (transfer/interface_affine.h).
 void scatter_leaf(const PassOptions& options, const LawTable& laws, const particles::Particles& particles,
