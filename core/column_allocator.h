@@ -33,8 +33,7 @@ struct ColumnAllocator
     ColumnAllocator() = default;
     template <class U>
     ColumnAllocator(const ColumnAllocator<U>&)
-    {
-    }
+    {}
 
     T* allocate(std::size_t count)
     {

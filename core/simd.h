@@ -218,7 +218,8 @@ T sum(Pack<T, N> a)
     if constexpr (N == 1) {
         return a.v[0];
     } else {
-        return [&]<int... I>(std::integer_sequence<int, I...>) {
+        return [&]<int... I>(std::integer_sequence<int, I...>)
+        {
             const typename Pack<T, N / 2>::Lanes lower = __builtin_shufflevector(a.v, a.v, I...);
             const typename Pack<T, N / 2>::Lanes upper = __builtin_shufflevector(a.v, a.v, (N / 2 + I)...);
             return sum(Pack<T, N / 2>(lower + upper));

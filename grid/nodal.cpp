@@ -81,8 +81,7 @@ struct Damped
     Real kept = 1, reached = 1; // 1
     Damped(Real damping, Real dt)
         : kept((1 - damping * dt / 2) / (1 + damping * dt / 2)), reached(1 / (1 + damping * dt / 2))
-    {
-    }
+    {}
 };
 
 /// What the forces of slaves change in their masters' motion.

@@ -18,24 +18,28 @@ void with_stress_update(const PassOptions& options, const Visit& visit)
     });
 }
 
-/// Cell by cell: advance, and scatter while the particles are still in the nearest cache.
+/// Cell by cell: advance, and scatter while the particles are still in the nearest cache. Affine matrices of hanging
+/// cells (APIC) are stored when all cells have been advanced: then the scatter comes afterwards.
 void advance_leaf(const PassOptions& options, const LawTable& laws, std::size_t leaf, grid::Levels& levels,
                   particles::Particles& particles, LeafOutcome& outcome)
 {
-    clear_sums(leaf, levels);
     const std::uint32_t* start = levels.cell_start.data() + leaf * grid::leaf_cells;
     const LeafFrame frame = leaf_frame(levels, leaf);
     const std::vector<AffineChunk> affine = affine_of_residents(options, levels, leaf, particles);
+    const bool at_once = affine.empty();
+    if (at_once) clear_sums(leaf, levels);
     with_stress_update(options, [&]<Formulation F, Transfer T, StressUpdate S>() {
-        for (int c = 0; c < grid::leaf_cells; ++c)
-            if (start[c] != start[c + 1]) {
-                const CellFrame cell = cell_frame(frame, c);
-                advance_cell<F, T, S>(options, laws, cell, Visitors::residents, levels.motions(leaf), start[c],
-                                      start[c + 1], particles, outcome);
-                scatter_residents<F, T>(cell, laws, particles, start[c], start[c + 1], levels.sums(leaf));
-            }
+        for (int c = 0; c < grid::leaf_cells; ++c) {
+            if (start[c] == start[c + 1]) continue;
+            const CellFrame cell = cell_frame(frame, c);
+            advance_cell<F, T, S>(options, laws, cell, Visitors::residents, levels.motions(leaf), start[c],
+                                  start[c + 1], particles, outcome);
+            if (at_once) scatter_residents<F, T>(cell, laws, particles, start[c], start[c + 1], levels.sums(leaf));
+        }
     });
+    if (at_once) return;
     store_affine(affine, particles);
+    scatter_leaf(options, laws, particles, leaf, levels);
 }
 
 void advance_strays(const PassOptions& options, const LawTable& laws, const Strays& strays, const grid::Levels& levels,

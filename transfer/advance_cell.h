@@ -290,7 +290,7 @@ void advance_cell(const PassOptions& options, const LawTable& laws, const CellFr
                   const grid::NodeMotion* tile, std::size_t begin, std::size_t end, particles::Particles& particles,
                   LeafOutcome& outcome)
 {
-    visitors == Visitors::residents && is_plain(particles, begin, end)
+    visitors == Visitors::residents&& is_plain(particles, begin, end)
         ? detail::advance_served<F, T, S, true>(options, laws, frame, visitors, tile, begin, end, particles, outcome)
         : detail::advance_served<F, T, S, false>(options, laws, frame, visitors, tile, begin, end, particles, outcome);
 }

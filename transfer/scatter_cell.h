@@ -162,7 +162,7 @@ template <Formulation F, Transfer T>
 void scatter_cell(const CellFrame& frame, Visitors visitors, const LawTable& laws,
                   const particles::Particles& particles, std::size_t begin, std::size_t end, grid::NodeSum* tile)
 {
-    visitors == Visitors::residents && is_plain(particles, begin, end)
+    visitors == Visitors::residents&& is_plain(particles, begin, end)
         ? detail::scatter_served<F, T, true>(frame, visitors, laws, particles, begin, end, tile)
         : detail::scatter_served<F, T, false>(frame, visitors, laws, particles, begin, end, tile);
 }
