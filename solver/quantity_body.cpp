@@ -2,6 +2,8 @@
 
 #include "particles/tensors.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -20,8 +20,8 @@ using Names = std::vector<std::string>;
 
 const io::CheckpointCase this_case{"[grid]\ncell = 0.25\nlevels = 2\n", "0.1.0"};
 
-template <class T>
-void expect_same_bits(const std::string& name, const std::vector<T>& a, const std::vector<T>& b)
+template <class T, class Allocator>
+void expect_same_bits(const std::string& name, const std::vector<T, Allocator>& a, const std::vector<T, Allocator>& b)
 {
     ASSERT_EQ(a.size(), b.size()) << name;
     EXPECT_EQ(a.empty() ? 0 : std::memcmp(a.data(), b.data(), a.size() * sizeof(T)), 0) << name;
@@ -43,7 +43,7 @@ std::vector<std::uint64_t> bits(std::vector<Row> rows)
 
 void expect_same(const solver::State& a, const solver::State& b)
 {
-    std::vector<std::vector<Real>> reals;
+    std::vector<particles::Column> reals;
     std::vector<std::vector<std::int64_t>> integers;
     particles::Particles::for_each_real(a.particles, [&](const std::string&, const auto& c) { reals.push_back(c); });
     particles::Particles::for_each_integer(
