@@ -14,12 +14,13 @@ struct BoxStage
     alignas(64) Real row[lines][8][8]; // [line][quantity][particle]
     NodeLine line[lines][8];
 
-    /// Zero all but what `all` or the momentum alone writes.
+    /// Zero all but what `all` or the momentum alone writes; with APIC no force follows the base line.
     explicit BoxStage(BoxGive give)
     {
-        for (auto& of_line : row)
+        for (int n = 0; n < lines; ++n)
             for (int q = 0; q < 8; ++q)
-                if (give == BoxGive::momentum || q % 4 == 3 || (affine && q == 0)) NodeLine(Real(0)).store(of_line[q]);
+                if (give == BoxGive::momentum || q % 4 == 3 || (affine && (q == 0 || (n == 0 && q >= 4))))
+                    NodeLine(Real(0)).store(row[n][q]);
     }
 
     Real* mass() { return row[0][0]; }

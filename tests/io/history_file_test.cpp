@@ -74,5 +74,5 @@ TEST(HistoryFile, ReportsAFullDiskAndAForeignFile)
     EXPECT_PRED2(faults::contains, faults::message<core::FileError>([&] { io::read_history(path); }), "line 1");
     io::write_file(path, io::history_header(1) + "\n1,2,3\n");
     EXPECT_PRED2(faults::contains, faults::message<core::FileError>([&] { io::read_history(path); }),
-                 "line 2 has not 16 numbers");
+                 "line 2 has not 17 numbers");
 }

@@ -58,7 +58,8 @@ TEST(SurfaceForces, of_a_plane_face_are_exact_whatever_the_cells)
         problem.surface_loads = {surface_load(Kind::traction, support::beyond(1, 3, 1), 0, {3, 5, 7})};
         problem.surface_loads[0].facing = Vec3(0, 1, 0);
         const solver::SurfaceForces surface = forces_of(problem);
-        EXPECT_NEAR(surface.area[0], 2, 0.05) << cell; // shares from 4^3 samples
+        EXPECT_NEAR(surface.area[0], 2, 0.07)
+            << cell; // shares from 4^3 samples: an edge is known to an eighth of a sub-cell
         EXPECT_LT((surface.total[0] - surface.area[0] * Vec3(3, 5, 7)).norm(), 1e-12);
         problem.surface_loads[0].kind = Kind::force;
         EXPECT_LT((forces_of(problem).total[0] - Vec3(3, 5, 7)).norm(), 1e-12) << cell;
@@ -108,7 +109,7 @@ TEST(ExternalForce, accelerates_a_free_body_by_its_total_and_does_the_work_it_ga
         Job run = support::started(problem);
         support::advance(60, run);
         const Vec3 momentum = solver::momentum(support::particles_of(run));
-        const Real tolerance = numerics.precision == solver::Precision::mixed ? 1e-5 : 1e-10;
+        const Real tolerance = numerics.precision == solver::Precision::mixed ? 1e-5 : 1e-8;
         EXPECT_NEAR(momentum[0] / (12 * run.state.clock.time), 1, tolerance);
         const solver::Ledger ledger = solver::audit(run.prepared, run.state);
         EXPECT_GT(ledger.external, 0);

@@ -103,13 +103,13 @@ Real step_of(Real cfl, const Scene& scene)
     return cfl * scene.levels.spacing(scene.levels.count - 1) / scene.laws.constants[0].wave_speed;
 }
 
-class EveryTopology : public testing::TestWithParam<support::Topology>
+class EverySubcycledTopology : public testing::TestWithParam<support::Topology>
 {};
 } // namespace
 
-INSTANTIATE_TEST_SUITE_P(Subcycling, EveryTopology, testing::ValuesIn(support::topologies()));
+INSTANTIATE_TEST_SUITE_P(Subcycling, EverySubcycledTopology, testing::ValuesIn(support::topologies()));
 
-TEST_P(EveryTopology, steps_of_a_plastic_cut_body_are_those_of_the_plain_scheme)
+TEST_P(EverySubcycledTopology, steps_of_a_plastic_cut_body_are_those_of_the_plain_scheme)
 {
     const std::vector<grid::WallPlane> walls{{1, 1}};
     const Vec3 gravity(300, -500, 200);
@@ -155,7 +155,7 @@ TEST(Subcycling, a_breaking_body_is_that_of_the_plain_scheme)
 }
 
 // Every impulse sums to zero and has no torque about the present positions; both hold while the body yields and breaks.
-TEST_P(EveryTopology, a_free_body_keeps_its_momentum_and_angular_momentum)
+TEST_P(EverySubcycledTopology, a_free_body_keeps_its_momentum_and_angular_momentum)
 {
     Scene scene = support::cut_scene(GetParam(), breaking_metals(), 9);
     support::stir(10, 5, 60, scene);
@@ -170,7 +170,7 @@ TEST_P(EveryTopology, a_free_body_keeps_its_momentum_and_angular_momentum)
 }
 
 // methods.md B18 in three dimensions: random velocity feeds every mode; nothing may grow.
-TEST_P(EveryTopology, energy_stays_bounded_up_to_the_largest_cfl)
+TEST_P(EverySubcycledTopology, energy_stays_bounded_up_to_the_largest_cfl)
 {
     for (const Real cfl : {0.3, 0.6}) {
         Scene scene = ringing(GetParam());
