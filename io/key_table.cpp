@@ -1,8 +1,6 @@
 /// The table behind io/keys.h: one entry per key, section after section. Longer than a usual file because it is data.
 #include "io/keys.h"
 
-#include <array>
-
 namespace io
 {
 namespace
@@ -13,7 +11,8 @@ using enum Range;
 namespace dim = dimension;
 
 // Columns: section, name, type, presence, default, meaning, then dimension, range, choices where they apply.
-constexpr std::array keys{
+constexpr Key keys[] = {
+    // not std::array: clang deduces its length by a fold of at most 256 terms
     Key{"", "units", choice, required, "", "unit set of bare numbers: mm, g, ms, so N, MPa, mJ", {}, finite, "mm-g-ms"},
     Key{"", "title", text, defaulted, "\"\"", "one line for reports"},
     Key{"", "include", names, optional, "", "file or files to read first, relative to this one; this file wins"},
