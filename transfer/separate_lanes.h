@@ -19,7 +19,7 @@ struct SeparatingChunk
     int count;
     LaneMask here;
     core::Sym<Lanes> strain;   // 1, increment
-    core::Mat<Lanes> rotation; // 1
+    core::Vec<Lanes> spin;     // 1
     core::Sym<Lanes> stress;   // MPa, before the step
     Lanes eq_plastic_strain;   // 1, before the step
     Lanes volume;              // mm^3, without regard to openings
