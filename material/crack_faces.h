@@ -5,6 +5,7 @@
 
 #include "core/simd.h"
 #include "core/tensor.h"
+#include "material/rotation.h"
 #include "material/separation.h"
 
 namespace material
@@ -113,11 +114,13 @@ constexpr void slide(const SeparationLaw& law, Traction<T> before, Faces<T>& fac
     relax(returned.work > T(0.0));
 }
 
-/// Turn the faces and the stress with the material and add the elastic trial; the traction before is returned.
+/// Turn the faces and the stress with the crack plane and add the elastic trial; the traction before is returned.
+/// @param spin  1, of the material over the step
 template <class T>
-constexpr Traction<T> begin_step(const SeparationLaw& law, const core::Mat<T>& rotation, const core::Sym<T>& strain,
+constexpr Traction<T> begin_step(const SeparationLaw& law, const core::Vec<T>& spin, const core::Sym<T>& strain,
                                  Faces<T>& faces)
 {
+    const core::Mat<T> rotation = incremental_rotation(plane_spin(spin, strain, faces.normal));
     const core::Vec<T> turned = rotation * faces.normal;
     faces.normal = (T(1.0) / core::sqrt(core::dot(turned, turned))) * turned;
     faces.slip = rotation * faces.slip;

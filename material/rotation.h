@@ -21,6 +21,19 @@ constexpr core::Vec<T> spin_increment(const core::Mat<T>& gradient_increment)
     return {{half * (g(2, 1) - g(1, 2)), half * (g(0, 2) - g(2, 0)), half * (g(1, 0) - g(0, 1))}};
 }
 
+/// Spin [1] of the material plane with unit normal n, from spin a and strain D of the same increment:
+///
+///   dn = -(L^T n) without its part along n,   spin about n as the material's   =>   a - n x (D n)
+///
+/// Motion of the two sides of the plane against each other, L = u (x) n, does not turn it (n is F^{-T} N over its
+/// length), whereas a itself is half of the slip: a band of cells that slips by its own width would turn its plane by
+/// half a radian and lock.
+template <class T>
+constexpr core::Vec<T> plane_spin(const core::Vec<T>& a, const core::Sym<T>& strain, const core::Vec<T>& normal)
+{
+    return a - core::cross(normal, strain * normal);
+}
+
 /// Rotation matrix R [1] of the spin increment a [1]; one division.
 template <class T>
 constexpr core::Mat<T> incremental_rotation(const core::Vec<T>& a)

@@ -128,7 +128,7 @@ DecohesionStep separate(const SeparationLaw& law, const core::Crack& crack, cons
     CLEAVE_EXPECTS(crack.effective_length > 0);
     Faces<double> faces{
         {crack.normal}, {crack.slip}, crack.opening, crack.effective_length, step.stress, step.eq_plastic_strain, 0, 0};
-    const Traction<double> before = begin_step(law, step.rotation, step.strain, faces);
+    const Traction<double> before = begin_step(law, step.spin, step.strain, faces);
     core::Crack after = crack;
     if (crack.damage >= 1) {
         slide(law, before, faces);

@@ -41,7 +41,7 @@ struct StrainStep
 {
     core::Sym<double> stress;     // MPa, at the beginning, not yet rotated
     core::Sym<double> strain;     // 1, increment
-    core::Mat<double> rotation;   // 1, incremental rotation (material/rotation.h)
+    core::Vec<double> spin;       // 1, of the material (material/rotation.h)
     double eq_plastic_strain = 0; // 1, at the beginning
     double dt = 0;                // ms
     double time = 0;              // ms, end of the step

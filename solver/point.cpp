@@ -19,8 +19,9 @@ core::Mat<Real> velocity_gradient(const PointStep& step)
 }
 
 /// Elastic or plastic step of an intact point, and the onset at its end.
-void advance_intact(const PointLaw& law, const PointStep& step, const core::Mat<Real>& rotation, PointState& state)
+void advance_intact(const PointLaw& law, const PointStep& step, PointState& state)
 {
+    const core::Mat<Real> rotation = material::incremental_rotation(step.rotation);
     state.stress = material::elastic_trial(core::rotated(rotation, state.stress), step.strain, law.lame);
     if (law.plastic) {
         const auto returned = material::radial_return(state.stress, state.eq_plastic_strain, *law.plastic);
@@ -37,11 +38,11 @@ void advance_intact(const PointLaw& law, const PointStep& step, const core::Mat<
     if (state.crack) state.onset_step = state.step;
 }
 
-void advance_cracked(const PointLaw& law, const PointStep& step, const core::Mat<Real>& rotation, PointState& state)
+void advance_cracked(const PointLaw& law, const PointStep& step, PointState& state)
 {
     const material::DecohesionStep after =
         material::separate(*law.separation, *state.crack,
-                           {state.stress, step.strain, rotation, state.eq_plastic_strain, step.dt, state.time});
+                           {state.stress, step.strain, step.rotation, state.eq_plastic_strain, step.dt, state.time});
     state.stress = after.stress;
     state.crack = after.crack;
     state.eq_plastic_strain = after.eq_plastic_strain;
@@ -65,11 +66,10 @@ PointState advance(const PointLaw& law, const PointState& before, const PointSte
     after.time += step.dt;
     after.strain = before.strain + step.strain;
     after.acoustic_ratio = 1;
-    const core::Mat<Real> rotation = material::incremental_rotation(step.rotation);
     if (before.crack)
-        advance_cracked(law, step, rotation, after);
+        advance_cracked(law, step, after);
     else
-        advance_intact(law, step, rotation, after);
+        advance_intact(law, step, after);
     return after;
 }
 } // namespace solver

@@ -190,9 +190,10 @@ template <bool Plain>
     const Lanes old_strain = load(particles.eq_plastic_strain, begin, count);
     const LawLanes law = law_lanes<Plain>(laws, particles, begin, count);
     const core::Sym<Lanes> strain = strain_increment(k, mean_dilatation);
-    const core::Mat<Lanes> rotation = material::incremental_rotation(material::spin_increment(k.gradient_increment));
-    const core::Sym<Lanes> trial = material::elastic_trial(
-        core::rotated(rotation, old), strain, material::LameConstants<Lanes>{law.lame, law.shear + law.shear});
+    const core::Vec<Lanes> spin = material::spin_increment(k.gradient_increment);
+    const core::Sym<Lanes> trial =
+        material::elastic_trial(core::rotated(material::incremental_rotation(spin), old), strain,
+                                material::LameConstants<Lanes>{law.lame, law.shear + law.shear});
     const material::PlasticStep<Lanes> step = material::radial_return(
         trial, old_strain,
         material::PlasticConstants<Lanes>{law.yield, law.hardening, Lanes(Real(3)) * law.shear, law.per_overstress});
@@ -206,8 +207,8 @@ template <bool Plain>
         return;
     }
     if (!Plain && !particles.cracks.empty()) {
-        const SeparatingChunk chunk{options, laws,     per_spacing, begin,      count,   k.here,
-                                    strain,  rotation, old,         old_strain, k.volume};
+        const SeparatingChunk chunk{options, laws, per_spacing, begin,      count,   k.here,
+                                    strain,  spin, old,         old_strain, k.volume};
         outcome.work.decohesion += separate_lanes(chunk, particles, plastic_work);
     }
     outcome.work.plastic += core::sum(plastic_work);

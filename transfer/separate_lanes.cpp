@@ -16,7 +16,7 @@ Tensor lane_of(const LaneTensor& lanes, int lane)
     if constexpr (requires { t.s; }) {
         for (std::size_t n = 0; n < 6; ++n) t.s[n] = lanes.s[n][lane];
     } else {
-        for (std::size_t n = 0; n < 9; ++n) t.m[n] = lanes.m[n][lane];
+        for (std::size_t n = 0; n < 3; ++n) t.v[n] = lanes.v[n][lane];
     }
     return t;
 }
@@ -54,9 +54,8 @@ Real separate_lanes(const SeparatingChunk& chunk, particles::Particles& particle
         core::Mat<Real> deformation;
         if (total) deformation = particles::deformation_of(particles, p);
         const SeparationInput input{{lane_of<core::Sym<Real>>(chunk.stress, i),
-                                     lane_of<core::Sym<Real>>(chunk.strain, i),
-                                     lane_of<core::Mat<Real>>(chunk.rotation, i), chunk.eq_plastic_strain[i],
-                                     chunk.options.dt, chunk.options.time},
+                                     lane_of<core::Sym<Real>>(chunk.strain, i), lane_of<core::Vec<Real>>(chunk.spin, i),
+                                     chunk.eq_plastic_strain[i], chunk.options.dt, chunk.options.time},
                                     chunk.volume[i],
                                     chunk.volume[i] / particles.rest_volume[p],
                                     total ? &deformation : nullptr,

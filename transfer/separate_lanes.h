@@ -18,11 +18,11 @@ struct SeparatingChunk
     std::size_t begin;
     int count;
     LaneMask here;
-    core::Sym<Lanes> strain;   // 1, increment
-    core::Mat<Lanes> rotation; // 1
-    core::Sym<Lanes> stress;   // MPa, before the step
-    Lanes eq_plastic_strain;   // 1, before the step
-    Lanes volume;              // mm^3, without regard to openings
+    core::Sym<Lanes> strain; // 1, increment
+    core::Vec<Lanes> spin;   // 1
+    core::Sym<Lanes> stress; // MPa, before the step
+    Lanes eq_plastic_strain; // 1, before the step
+    Lanes volume;            // mm^3, without regard to openings
 };
 
 /// Replace stress, plastic strain and plastic work of every lane with a crack by those of separate_particle.

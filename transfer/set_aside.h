@@ -122,7 +122,7 @@ template <class T>
             continue;
         }
         input.step.strain = core::symmetric_part(gradient);
-        input.step.rotation = material::incremental_rotation(material::spin_increment(gradient));
+        input.step.spin = material::spin_increment(gradient);
         out.result = separate_particle(context.options, context.laws, input, crack);
         out.share = solid_share(crack);
     }

@@ -86,8 +86,8 @@ void slide_batch(const PassOptions& options, const LawTable& laws, Real per_spac
                              zero};
     for (std::size_t n = 0; n < 6; ++n) faces.stress.s[n] = load(batch.stress[n]);
     const material::SeparationLaw& law = laws.separation[batch.material];
-    const auto before = material::begin_step(law, material::incremental_rotation(material::spin_increment(gradient)),
-                                             core::symmetric_part(gradient), faces);
+    const auto before =
+        material::begin_step(law, material::spin_increment(gradient), core::symmetric_part(gradient), faces);
     material::slide(law, before, faces);
 
     const Mask moved = sound(options, laws, per_spacing, batch);

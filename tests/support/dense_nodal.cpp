@@ -180,8 +180,7 @@ void separate(Real dt, const Strain& s, Real spacing, NodalPoint& p, DenseNodal&
     options.dt = dt;
     options.time = mpm.time;
     const transfer::SeparationInput input{{p.stress, core::symmetric_part(s.increment),
-                                           material::incremental_rotation(material::spin_increment(s.increment)),
-                                           p.eq_plastic_strain, dt, mpm.time},
+                                           material::spin_increment(s.increment), p.eq_plastic_strain, dt, mpm.time},
                                           s.volume,
                                           s.ratio,
                                           &p.deformation_gradient,

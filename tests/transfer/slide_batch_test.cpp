@@ -90,7 +90,7 @@ Particle particle(Fate fate, int material, const transfer::PassOptions& options,
     if (fate == Fate::crushed) p.input.volume_ratio = random.between(-0.5, 0.049);
     for (Real& entry : p.input.step.stress.s) entry = random.between(-15, 15);
     p.input.step.strain = core::symmetric_part(p.gradient);
-    p.input.step.rotation = material::incremental_rotation(material::spin_increment(p.gradient));
+    p.input.step.spin = material::spin_increment(p.gradient);
     p.input.step.eq_plastic_strain = random.between(0, 0.1);
     p.input.step.dt = options.dt;
     p.input.step.time = options.time;
