@@ -43,10 +43,10 @@ inline Results results_of(Job& run)
     return results;
 }
 
-/// A case below cases/verification with overrides such as "grid.cell=0.5".
+/// A case below cases/ with overrides such as "grid.cell=0.5".
 inline Results results_of(const std::string& file, const std::vector<std::string>& overrides)
 {
-    Job run = started(io::read_case(std::string(CLEAVE_SOURCE_DIR) + "/cases/verification/" + file, overrides));
+    Job run = started(io::read_case(std::string(CLEAVE_SOURCE_DIR) + "/cases/" + file, overrides));
     return results_of(run);
 }
 } // namespace support
