@@ -9,7 +9,7 @@
 #include "app/stop_request.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
-#include "io/case.h"
+#include "io/diagnostics.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
