@@ -18,17 +18,18 @@ std::vector<std::string> names_of(const std::vector<Axis>& axes)
     return names;
 }
 
-Axis read_axis(Diagnostics& diagnostics, const Node& item, const std::string& schema)
+/// @param path  "axis" or "scene.axis": both have the same keys
+Axis read_axis(Diagnostics& diagnostics, const Node& item, const std::string& path)
 {
-    SectionReader section(diagnostics, &item, schema, schema.substr(schema.find('.') + 1), item.place);
+    SectionReader section(diagnostics, &item, "suite.axis", path, item.place);
     Axis axis;
     axis.name = section.text("name");
     axis.resolution = section.boolean("resolution", false);
     if (!section.has("setting"))
-        section.error("setting", fmt::format("axis '{}' has no settings", axis.name), "add [[axis.setting]] tables");
+        section.error("setting", fmt::format("axis '{}' has no settings", axis.name), fmt::format("add [[{}.setting]] tables", path));
     std::vector<std::string> seen;
-    for_each_table(diagnostics, section.find("setting"), section.path() + ".setting", [&](const Node& one) {
-        SectionReader inner(diagnostics, &one, schema + ".setting", section.path() + ".setting", one.place);
+    for_each_table(diagnostics, section.find("setting"), path + ".setting", [&](const Node& one) {
+        SectionReader inner(diagnostics, &one, "suite.axis.setting", path + ".setting", one.place);
         Setting setting{inner.text("label"), read_overrides(diagnostics, inner, "set")};
         check_unique(diagnostics, inner.place("label"), "setting", setting.label, seen);
         inner.finish();
@@ -38,12 +39,12 @@ Axis read_axis(Diagnostics& diagnostics, const Node& item, const std::string& sc
     return axis;
 }
 
-std::vector<Axis> read_axes(Diagnostics& diagnostics, const Node* list, const std::string& schema)
+std::vector<Axis> read_axes(Diagnostics& diagnostics, const Node* list, const std::string& path)
 {
     std::vector<Axis> axes;
     std::vector<std::string> seen;
-    for_each_table(diagnostics, list, schema.substr(schema.find('.') + 1), [&](const Node& item) {
-        axes.push_back(read_axis(diagnostics, item, schema));
+    for_each_table(diagnostics, list, path, [&](const Node& item) {
+        axes.push_back(read_axis(diagnostics, item, path));
         check_unique(diagnostics, item.place, "axis", axes.back().name, seen);
     });
     return axes;
@@ -96,7 +97,7 @@ Scene read_scene(Diagnostics& diagnostics, const Node& item, const std::filesyst
     scene.set = read_overrides(diagnostics, section, "set");
     scene.length = section.optional_real("length");
     scene.limit = section.real("limit");
-    std::vector<Axis> axes = read_axes(diagnostics, section.find("axis"), "suite.scene.axis");
+    std::vector<Axis> axes = read_axes(diagnostics, section.find("axis"), "scene.axis");
     for (const Axis& axis : shared)
         if (std::none_of(axes.begin(), axes.end(), [&](const Axis& own) { return own.name == axis.name; }))
             axes.push_back(axis);
@@ -121,7 +122,7 @@ Suite read_suite(const std::filesystem::path& file)
     SectionReader section(diagnostics, &root, "suite", "", root.place);
     Suite suite;
     suite.title = section.text("title");
-    const std::vector<Axis> axes = read_axes(diagnostics, root.find("axis"), "suite.axis");
+    const std::vector<Axis> axes = read_axes(diagnostics, root.find("axis"), "axis");
     if (!section.has("scene")) section.error("scene", "the suite has no scene", "add [[scene]] tables");
     std::vector<std::string> seen;
     for_each_table(diagnostics, root.find("scene"), "scene", [&](const Node& item) {
