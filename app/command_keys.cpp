@@ -1,4 +1,4 @@
-/// `cleave keys [SECTION]`: what a case file may hold.
+/// `cleave keys [SECTION]`: what case, suite and sweep files may hold.
 #include "app/commands.h"
 #include "core/error.h"
 #include "io/diagnostics.h"
@@ -46,12 +46,15 @@ void print_section(const std::string& section)
 std::vector<std::string> sections_named(const std::string& wanted)
 {
     std::vector<std::string> found;
-    for (const std::string& section : io::section_names())
+    std::vector<std::string> all = io::section_names();
+    const std::vector<std::string> study = io::study_section_names();
+    all.insert(all.end(), study.begin(), study.end());
+    for (const std::string& section : all)
         if (wanted.empty() || shown_name(section) == wanted || section.rfind(wanted + ".", 0) == 0)
             found.push_back(section);
     if (found.empty()) {
         std::vector<std::string> names;
-        for (const std::string& section : io::section_names()) names.push_back(shown_name(section));
+        for (const std::string& section : all) names.push_back(shown_name(section));
         const std::string near = io::nearest_name(wanted, names);
         throw core::InputError(fmt::format("there is no section '{}'{}\nsections: {}", wanted,
                                            near.empty() ? "" : fmt::format("; did you mean '{}'?", near),
@@ -63,7 +66,8 @@ std::vector<std::string> sections_named(const std::string& wanted)
 
 void add_keys(CLI::App& program, Command& chosen)
 {
-    CLI::App* command = program.add_subcommand("keys", "Every key of a case file: type, unit, default, meaning");
+    CLI::App* command =
+        program.add_subcommand("keys", "Every key of case, suite and sweep files: type, unit, default, meaning");
     const auto section = std::make_shared<std::string>();
     command->add_option("SECTION", *section, "only this section, such as material.decohesion");
     command->callback([&chosen, section] {

@@ -132,7 +132,8 @@ std::string finish_text(solver::Finish finish)
 
 int run_case(const RunOptions& options)
 {
-    const io::Case read = io::read_case_with_warnings(options.file, options.overrides);
+    io::Case read = io::read_case_with_warnings(options.file, options.overrides);
+    if (options.no_frames) read.problem.output.particles = read.problem.output.grid = read.problem.output.vdb = {};
     const auto directory = result_directory(options);
     RunFiles files = open_files(directory, read);
     Log log(directory / "log.txt");
@@ -188,6 +189,7 @@ void add_run(CLI::App& program, Command& chosen)
         ->allow_extra_args(false);
     command->add_flag("--resume", options->resume, "go on from the newest checkpoint in the result directory");
     command->add_flag("--force", options->force, "replace a run that the result directory holds");
+    command->add_flag("--no-frames", options->no_frames, "write no particle, grid and volume files");
     command
         ->add_option_function<std::string>(
             "--walltime", [options](const std::string& text) { options->walltime = parse_walltime(text); },

@@ -17,6 +17,8 @@ using Command = std::function<int()>;
 
 void add_run(CLI::App& program, Command& chosen);
 void add_point(CLI::App& program, Command& chosen);
+void add_chart(CLI::App& program, Command& chosen);
+void add_sweep(CLI::App& program, Command& chosen);
 void add_bench(CLI::App& program, Command& chosen);
 void add_check(CLI::App& program, Command& chosen);
 void add_new(CLI::App& program, Command& chosen);

@@ -22,6 +22,8 @@ int main(int argc, char** argv)
     app::add_run(program, chosen);
     app::add_check(program, chosen);
     app::add_point(program, chosen);
+    app::add_chart(program, chosen);
+    app::add_sweep(program, chosen);
     app::add_bench(program, chosen);
     app::add_new(program, chosen);
     app::add_keys(program, chosen);

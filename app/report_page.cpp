@@ -1,5 +1,6 @@
 #include "app/report_page.h"
 
+#include "app/html_table.h"
 #include "app/svg_chart.h"
 #include "app/svg_field.h"
 
@@ -25,19 +26,7 @@ td:first-child, th:first-child {{ text-align: left; }} pre {{ background: #f5f5f
 <h1>{}</h1>
 )";
 
-using Row = std::vector<std::string>;
-
-std::string table(const Row& head, const std::vector<Row>& rows)
-{
-    const auto line = [](const Row& cells, const char* tag) {
-        std::string html = "<tr>";
-        for (const std::string& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, escape_xml(cell));
-        return html + "</tr>\n";
-    };
-    std::string html = "<table>\n" + (head.empty() ? "" : line(head, "th"));
-    for (const Row& row : rows) html += line(row, "td");
-    return html + "</table>\n";
-}
+using Row = TableRow;
 
 std::string number(Real value)
 {
@@ -145,24 +134,24 @@ std::string measure_table(const Report& report)
         }
         rows.push_back(std::move(row));
     }
-    return table(head, rows);
+    return html_table(head, rows);
 }
 
 std::string run_table(const io::RunRecord& record)
 {
     const Real speed = record.wall_s > 0 ? static_cast<Real>(record.particle_steps) / record.wall_s : 0;
     const std::string status = record.status + (record.exit_reason.empty() ? "" : ": " + record.exit_reason);
-    return table({}, {{"status", status},
-                      {"version", record.version},
-                      {"compiler", record.compiler},
-                      {"instruction set", record.instruction_set},
-                      {"threads", std::to_string(record.threads)},
-                      {"wall time", fmt::format("{:.1f} s", record.wall_s)},
-                      {"steps", std::to_string(record.steps)},
-                      {"particle-steps per second", fmt::format("{:.3g} million", speed / 1e6)},
-                      {"peak memory", fmt::format("{:.2f} GB", static_cast<double>(record.peak_rss_bytes) / 1e9)},
-                      {"particles at the start", total(record.particles_start)},
-                      {"particles at the end", total(record.particles_end)}});
+    return html_table({}, {{"status", status},
+                           {"version", record.version},
+                           {"compiler", record.compiler},
+                           {"instruction set", record.instruction_set},
+                           {"threads", std::to_string(record.threads)},
+                           {"wall time", fmt::format("{:.1f} s", record.wall_s)},
+                           {"steps", std::to_string(record.steps)},
+                           {"particle-steps per second", fmt::format("{:.3g} million", speed / 1e6)},
+                           {"peak memory", fmt::format("{:.2f} GB", static_cast<double>(record.peak_rss_bytes) / 1e9)},
+                           {"particles at the start", total(record.particles_start)},
+                           {"particles at the end", total(record.particles_end)}});
 }
 
 std::string zone_table(const std::vector<solver::Zone>& zones)
@@ -170,7 +159,7 @@ std::string zone_table(const std::vector<solver::Zone>& zones)
     std::vector<Row> rows;
     for (const solver::Zone& zone : zones)
         rows.push_back({zone.name, std::to_string(zone.level), fmt::format("{:g}", zone.margin)});
-    return table({"zone", "level", "margin [mm]"}, rows);
+    return html_table({"zone", "level", "margin [mm]"}, rows);
 }
 
 /// Middle of the thickness of the full specimen: a symmetry plane across the thinnest direction that bounds the

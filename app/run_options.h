@@ -15,6 +15,7 @@ struct RunOptions
     int threads = 0; // 0: all
     bool resume = false;
     bool force = false;
+    bool no_frames = false;         // only the history, run.json and checkpoints
     std::optional<double> walltime; // s
 };
 } // namespace app

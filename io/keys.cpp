@@ -32,31 +32,41 @@ std::string_view range_text(Range range)
     }
     return "";
 }
+
+std::vector<std::string> sections_of(std::span<const Key> keys)
+{
+    std::vector<std::string> names;
+    for (const Key& key : keys)
+        if (std::find(names.begin(), names.end(), key.section) == names.end()) names.emplace_back(key.section);
+    return names;
+}
 } // namespace
 
 std::vector<const Key*> keys_of(std::string_view section)
 {
     std::vector<const Key*> found;
-    for (const Key& key : all_keys())
-        if (key.section == section) found.push_back(&key);
+    for (const std::span<const Key> keys : {all_keys(), study_keys()})
+        for (const Key& key : keys)
+            if (key.section == section) found.push_back(&key);
     return found;
 }
 
 const Key& key_of(std::string_view section, std::string_view name)
 {
-    const std::span<const Key> keys = all_keys();
-    const auto key =
-        std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.section == section && k.name == name; });
+    const std::vector<const Key*> keys = keys_of(section);
+    const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key* k) { return k->name == name; });
     CLEAVE_EXPECTS(key != keys.end());
-    return *key;
+    return **key;
 }
 
 std::vector<std::string> section_names()
 {
-    std::vector<std::string> names;
-    for (const Key& key : all_keys())
-        if (std::find(names.begin(), names.end(), key.section) == names.end()) names.emplace_back(key.section);
-    return names;
+    return sections_of(all_keys());
+}
+
+std::vector<std::string> study_section_names()
+{
+    return sections_of(study_keys());
 }
 
 std::vector<std::string> choices_of(const Key& key)
@@ -98,6 +108,8 @@ std::string expected(const Key& key)
         return fmt::format("velocity or [x, y, z] of velocities and \"free\"{}", unit);
     case Type::names:
         return "list of texts";
+    case Type::values:
+        return "list of values";
     case Type::points:
         return fmt::format("list of points [[x, y, z], ...]{}", unit);
     case Type::corners:

@@ -23,6 +23,7 @@ enum class Type
     vector,   // three reals
     velocity, // three reals or "free", or one real along `axis`
     names,    // list of texts
+    values,   // list of values of any type, or of such lists
     points,   // list of vectors
     corners,  // list of pairs
     shape,    // section "shape"
@@ -64,14 +65,19 @@ struct Key
 
 std::span<const Key> all_keys();
 
+/// The same for the files of `cleave chart` and `cleave sweep` (sections "suite" and "sweep").
+std::span<const Key> study_keys();
+
 /// The keys of one section, in the order they are shown and written.
 std::vector<const Key*> keys_of(std::string_view section);
 
 /// @pre the key exists: asking for another one is a mistake in the reader
 const Key& key_of(std::string_view section, std::string_view name);
 
-/// Every section in the order of the table, the top ("") first.
+/// Every section of case files in the order of the table, the top ("") first.
 std::vector<std::string> section_names();
+/// Those of the files of `cleave chart` and `cleave sweep`.
+std::vector<std::string> study_section_names();
 
 /// "length > 0 [mm]", "one of 'flip', 'apic'": what a key takes.
 std::string expected(const Key& key);

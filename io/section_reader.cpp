@@ -302,7 +302,9 @@ void SectionReader::finish()
         diagnostics_.error(
             entry.place,
             fmt::format("unknown key '{}' {}", entry.key,
-                        path_.empty() ? "at the top of the case" : fmt::format("in [{}]", path_)),
+                        !path_.empty()    ? fmt::format("in [{}]", path_)
+                        : schema_.empty() ? "at the top of the case"
+                                          : "at the top of the file"),
             near.empty() ? "" : fmt::format("did you mean '{}'?", near),
             {fmt::format("keys here: {}     (cleave keys {})", joined(sorted), schema_.empty() ? "case" : schema_)});
     }

@@ -1,0 +1,219 @@
+/// `cleave chart`: error against cost for every choice, and advice from what was measured.
+#include "app/advise.h"
+#include "app/chart.h"
+#include "app/chart_page.h"
+#include "app/commands.h"
+#include "app/exit_code.h"
+#include "app/leave_one_out.h"
+#include "app/source_tree.h"
+#include "app/stop_request.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/diagnostics.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <thread>
+
+namespace app
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+struct Options
+{
+    std::string suite;
+    std::string directory;
+    std::vector<std::string> scenes; // empty: all
+    bool quick = false;
+    StudyOptions study;
+
+    std::string advise; // a case; empty: chart
+    bool leave_one_out = false;
+    std::string from; // table to advise from
+    std::vector<std::string> without;
+    std::vector<std::string> overrides;
+    std::string error;
+    std::optional<Real> length;
+};
+
+/// 0.02 of "2%" or "0.02".
+Real wanted_error(const std::string& text)
+{
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    const std::string rest = end;
+    const bool percent = rest == "%" || rest == " %";
+    if (end == text.c_str() || (!percent && !rest.empty()) || !(value > 0))
+        throw core::InputError(fmt::format("--error '{}': expected a share above 0, such as 2% or 0.02", text));
+    return percent ? value / 100 : value;
+}
+
+fs::path suite_file(const Options& options)
+{
+    if (!options.suite.empty()) return options.suite;
+    const fs::path name = fs::path("cases/chart") / (options.quick ? "quick.toml" : "full.toml");
+    if (const std::optional<fs::path> found = source_file(name)) return *found;
+    throw core::InputError(fmt::format("{} is not beside this program: name a suite", name.string()));
+}
+
+void keep_scenes(const std::vector<std::string>& wanted, io::Suite& suite)
+{
+    if (wanted.empty()) return;
+    std::vector<std::string> names;
+    for (const io::Scene& scene : suite.scenes) names.push_back(scene.name);
+    for (const std::string& name : wanted)
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+            const std::string near = io::nearest_name(name, names);
+            throw core::InputError(fmt::format("the suite has no scene '{}'{}\nscenes: {}", name,
+                                               near.empty() ? "" : fmt::format("; did you mean '{}'?", near),
+                                               io::joined(names)));
+        }
+    std::erase_if(suite.scenes, [&](const io::Scene& scene) {
+        return std::find(wanted.begin(), wanted.end(), scene.name) == wanted.end();
+    });
+}
+
+/// Pictures by the Python script; without it or its packages the chart goes on.
+void draw(const fs::path& directory)
+{
+    const std::optional<fs::path> script = source_file("tools/plot_chart.py");
+    const fs::path log = directory / "plots.log";
+    const std::string command =
+        script ? fmt::format("python3 '{}' '{}' -o '{}' > '{}' 2>&1", script->string(),
+                             (directory / "chart.csv").string(), (directory / "plots").string(), log.string())
+               : "false";
+    if (script && std::system(command.c_str()) == 0) return;
+    fmt::print(stderr, "no pictures: {}\nThe tables are complete.\n",
+               !script ? "tools/plot_chart.py is not beside this program"
+                       : fmt::format("tools/plot_chart.py needs python3-matplotlib (tools/install_packages plot); it "
+                                     "said, in {}:\n{}",
+                                     log.string(), io::read_file(log)));
+}
+
+std::map<std::string, std::string> pictures(const Chart& chart, const fs::path& directory)
+{
+    std::map<std::string, std::string> all;
+    for (const io::Scene& scene : chart.suite.scenes)
+        if (const fs::path file = directory / "plots" / (directory_name(scene.name) + ".svg"); fs::exists(file)) {
+            const std::string text = io::read_file(file);
+            all[scene.name] = text.substr(std::min(text.find("<svg"), text.size())); // without the XML declaration
+        }
+    return all;
+}
+
+std::map<std::string, std::string> titles(const Chart& chart)
+{
+    std::map<std::string, std::string> all;
+    for (std::size_t i = 0; i < chart.points.size(); ++i) {
+        const io::Scene& scene = chart.suite.scenes[chart.points[i].scene];
+        const std::string& title = scene.title.empty() ? chart.runs[i].problem.title : scene.title;
+        all.try_emplace(scene.name, title.empty() ? scene.name : fmt::format("{}: {}", scene.name, title));
+    }
+    return all;
+}
+
+int chart(const Options& options)
+{
+    io::Suite suite = io::read_suite(suite_file(options));
+    keep_scenes(options.scenes, suite);
+    const fs::path directory = !options.directory.empty()
+                                   ? fs::path(options.directory)
+                                   : fs::path("results") / (options.quick ? "chart-quick" : "chart");
+    catch_stop_signals();
+    Chart chart = plan_chart(std::move(suite), directory);
+    std::size_t left_out = 0;
+    for (const ChartRun& point : chart.points) left_out += point.row.status == "not applicable";
+    fmt::print("{} scenes, {} settings that differ, {} not applicable; {} runs at a time, results in {}\n",
+               chart.suite.scenes.size(), chart.points.size() - left_out, left_out, options.study.jobs,
+               directory.string());
+    std::fflush(stdout);
+    io::make_directory(directory);
+    const PoolEnd end = run_study(options.study, chart.runs);
+    const std::vector<io::ChartRow> rows = chart_rows(chart);
+    io::write_chart(directory / "chart.csv", rows);
+    draw(directory);
+    io::write_file(directory / "chart.html",
+                   chart_page(chart.suite.title.empty() ? "Error against cost" : chart.suite.title, rows, titles(chart),
+                              pictures(chart, directory)));
+    io::write_file(directory / "chart.md", chart_markdown(rows));
+    fmt::print("\n{}\n{} and chart.csv, chart.md, plots/\n", chart_text(rows), (directory / "chart.html").string());
+    if (end == PoolEnd::all_done) return exit_done;
+    fmt::print("stopped; the same command goes on\n");
+    return exit_stopped;
+}
+
+std::vector<io::ChartRow> measured(const Options& options)
+{
+    if (!options.from.empty())
+        return io::read_chart(fs::is_directory(options.from) ? fs::path(options.from) / "chart.csv"
+                                                             : fs::path(options.from));
+    if (const std::optional<fs::path> found = source_file("docs/accuracy.csv")) return io::read_chart(*found);
+    throw core::InputError("docs/accuracy.csv is not beside this program: give --from DIR of a chart");
+}
+
+int advice(const Options& options)
+{
+    const Real error = wanted_error(options.error);
+    std::vector<io::ChartRow> rows = measured(options);
+    if (options.leave_one_out) {
+        fmt::print("{}", leave_one_out_text(leave_one_out(rows, error), error));
+        return exit_done;
+    }
+    const AdviceRequest request{options.advise, options.overrides, error, options.length, options.without};
+    const std::optional<Advice> found = advise(request, rows);
+    if (!found)
+        throw core::InputError(
+            fmt::format("no charted method is expected to reach {:.3g} % on scenes like {}: the chart "
+                        "has no run that accurate, and errors that do not fall with the cell cannot be "
+                        "extrapolated",
+                        100 * error, options.advise));
+    fmt::print("{}", advice_text(request, *found));
+    return exit_done;
+}
+} // namespace
+
+void add_chart(CLI::App& program, Command& chosen)
+{
+    CLI::App* command = program.add_subcommand(
+        "chart", "Error against cost of every choice on scenes with known answers; advice from what was measured");
+    const auto options = std::make_shared<Options>();
+    options->study.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    options->study.whole_cost = true;
+    command->add_option("SUITE", options->suite,
+                        "suite file (default: cases/chart/full.toml, with --quick quick.toml)");
+    command->add_flag("--quick", options->quick, "the quick suite: under 10 minutes on two cores");
+    command->add_option("-o,--output", options->directory, "directory (default: results/chart or results/chart-quick)");
+    command->add_option("--scene", options->scenes, "only this scene; may be repeated")->allow_extra_args(false);
+    command->add_option("--jobs", options->study.jobs, "runs at a time, one thread each (default: all threads)")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option_function<std::string>(
+            "--walltime", [options](const std::string& text) { options->study.walltime = parse_walltime(text); },
+            "stop with checkpoints and exit code 75 after this time; the same command goes on")
+        ->type_name("T");
+    command->add_flag("--again", options->study.again, "repeat finished runs, too");
+    CLI::Option* advised =
+        command->add_option("--advise", options->advise, "run nothing: settings for this case from what was measured");
+    CLI::Option* left_out = command->add_flag("--leave-one-out", options->leave_one_out,
+                                              "run nothing: advise each charted scene from the others, and compare");
+    command->add_option("--error", options->error, "wanted relative error, such as 2%");
+    command->add_option("--from", options->from, "chart.csv, or directory of a chart (default: docs/accuracy.csv)");
+    command->add_option("--without", options->without, "do not learn from this scene; may be repeated")
+        ->allow_extra_args(false);
+    command->add_option("--length", options->length, "mm that the cells have to resolve in the case (default: guessed)")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--set", options->overrides, "key=value for the case to advise; may be repeated")
+        ->allow_extra_args(false);
+    command->callback([&chosen, options, advised, left_out] {
+        const bool run = advised->count() == 0 && left_out->count() == 0;
+        if (!run && options->error.empty()) throw CLI::ValidationError("--error", "is needed, such as --error 2%");
+        chosen = [options, run] { return run ? chart(*options) : advice(*options); };
+    });
+}
+} // namespace app

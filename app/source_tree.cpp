@@ -1,0 +1,18 @@
+#include "app/source_tree.h"
+
+namespace app
+{
+namespace fs = std::filesystem;
+
+std::optional<fs::path> source_file(const fs::path& relative)
+{
+    std::error_code problem;
+    for (fs::path folder = fs::read_symlink("/proc/self/exe", problem).parent_path(); folder.has_relative_path();
+         folder = folder.parent_path())
+        if (fs::exists(folder / relative, problem)) {
+            const fs::path file = fs::proximate(folder / relative, problem); // short in messages
+            return problem ? folder / relative : file;
+        }
+    return {};
+}
+} // namespace app

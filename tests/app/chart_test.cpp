@@ -1,0 +1,243 @@
+#include "app/chart.h"
+
+#include "app/advise.h"
+#include "app/chart_page.h"
+#include "app/chart_summary.h"
+#include "app/leave_one_out.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace
+{
+using io::ChartRow;
+
+ChartRow row(const std::string& scheme, Real h, Real error, Real cpu)
+{
+    ChartRow r;
+    r.scene = "scene";
+    r.scheme = r.setting = scheme;
+    r.role = scheme == "default" ? "scheme" : "";
+    r.status = "done";
+    r.finest_mm = r.cell_mm = h;
+    r.levels = 1;
+    r.error = error;
+    r.cpu_s = cpu;
+    r.length_mm = 10;
+    r.particle_steps = cpu * 1e7;
+    r.particles_per_cell = 8;
+    r.pic_fraction = 0;
+    r.cfl = 0.5;
+    r.formulation = "total";
+    r.basis = "trilinear";
+    r.transfer = scheme == "flip" ? "flip" : "nodal";
+    r.stress_update = "usl";
+    r.precision = "f64";
+    return r;
+}
+
+TEST(Chart, front_holds_what_nothing_beats_in_both)
+{
+    std::vector<ChartRow> rows{row("a", 1, 0.1, 1), row("a", 1, 0.05, 4), row("a", 1, 0.06, 8), row("a", 1, 0.2, 2),
+                               row("a", 1, 0.001, 0.1)};
+    rows[4].status = "unstable"; // the best numbers, but not to be had
+    app::mark_fronts(rows);
+    EXPECT_EQ(rows[0].front, 1);
+    EXPECT_EQ(rows[1].front, 1);
+    EXPECT_EQ(rows[2].front, 0);
+    EXPECT_EQ(rows[2].cost_over_front, 2); // 4 s would do
+    EXPECT_EQ(rows[3].cost_over_front, 2);
+    EXPECT_EQ(rows[4].front, 0);
+    EXPECT_TRUE(std::isnan(rows[4].cost_over_front));
+}
+
+TEST(Chart, fronts_do_not_mix_scenes)
+{
+    std::vector<ChartRow> rows{row("a", 1, 0.1, 1), row("a", 1, 0.2, 2)};
+    rows[1].scene = "other";
+    app::mark_fronts(rows);
+    EXPECT_EQ(rows[1].front, 1);
+}
+
+TEST(ChartSummary, order_is_the_slope)
+{
+    EXPECT_NEAR(*app::fitted_order({1, 0.5, 0.25}, {0.16, 0.04, 0.01}), 2, 1e-12);
+    EXPECT_FALSE(app::fitted_order({1, 1}, {0.1, 0.2}));
+    EXPECT_FALSE(app::fitted_order({1}, {0.1}));
+}
+
+TEST(ChartSummary, several_levels_against_one_at_equal_error)
+{
+    // One level: error 1/cost. Two levels: the error of cost 10 for 2.
+    std::vector<ChartRow> rows{row("default", 1, 0.1, 10), row("default", 0.5, 0.01, 100), row("default", 0.5, 0.03, 2)};
+    rows[2].levels = 2;
+    bool beyond = false;
+    EXPECT_NEAR(*app::two_level_factor(rows, beyond), (1 / 0.03) / 2, 1e-9);
+    EXPECT_FALSE(beyond);
+    rows[2].error = 0.001;
+    EXPECT_FALSE(app::two_level_factor(rows, beyond));
+    EXPECT_TRUE(beyond);
+    rows[2].error = 0.03;
+    rows[2].transfer = "flip"; // another method: not to be compared
+    EXPECT_FALSE(app::two_level_factor(rows, beyond));
+}
+
+TEST(ChartSummary, counts_crosses_apart_from_what_does_not_apply)
+{
+    std::vector<ChartRow> rows(4, row("default", 1, 0.1, 10));
+    rows[0].role = "default";
+    rows[1].status = "failed";
+    rows[2].status = "over limit";
+    rows[3].status = "not applicable";
+    app::mark_fronts(rows);
+    const std::vector<app::SceneSummary> all = app::summarise(rows);
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_EQ(all[0].settings, 3U);
+    EXPECT_EQ(all[0].crosses, 2U);
+    EXPECT_EQ(all[0].not_applicable, 1U);
+    EXPECT_EQ(all[0].default_over_front, 1);
+}
+
+TEST(ChartPage, shows_every_run_and_escapes)
+{
+    std::vector<ChartRow> rows{row("a<b", 1, 0.1, 1), row("bad", 1, NAN, 2)};
+    rows[1].status = "failed";
+    rows[1].reason = "particle 7 has no finite motion";
+    app::mark_fronts(rows);
+    const std::string page = app::chart_page("t", rows, {{"scene", "A bar"}}, {{"scene", "<svg>picture</svg>"}});
+    for (const char* part : {"a&lt;b", "particle 7 has no finite motion", "<h2>A bar</h2>", "<svg>picture</svg>"})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
+}
+
+std::vector<const ChartRow*> pointers(const std::vector<ChartRow>& rows)
+{
+    std::vector<const ChartRow*> all;
+    for (const ChartRow& r : rows) all.push_back(&r);
+    return all;
+}
+
+TEST(Advise, evidence_is_the_coarsest_measured_cell_from_which_on_all_met)
+{
+    // 0.5 met by luck, 0.25 did not, 0.125 did: luck is not trusted.
+    const std::vector<ChartRow> rows{row("a", 1, 0.1, 1), row("a", 0.5, 0.005, 1), row("a", 0.25, 0.02, 1),
+                                     row("a", 0.125, 0.006, 1)};
+    const std::optional<app::Evidence> found = app::evidence_of(pointers(rows), 0.01);
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->measured);
+    EXPECT_DOUBLE_EQ(found->resolution, 0.0125);
+}
+
+TEST(Advise, evidence_is_extrapolated_with_the_fitted_order)
+{
+    const std::vector<ChartRow> rows{row("a", 1, 0.2, 1), row("a", 0.5, 0.1, 1)};
+    const std::optional<app::Evidence> found = app::evidence_of(pointers(rows), 0.025);
+    ASSERT_TRUE(found);
+    EXPECT_FALSE(found->measured);
+    EXPECT_NEAR(*found->order, 1, 1e-12);
+    EXPECT_NEAR(found->resolution, 0.0125, 1e-12);
+}
+
+TEST(Advise, no_evidence_from_errors_that_do_not_fall_or_a_failed_finest_run)
+{
+    std::vector<ChartRow> rows{row("a", 1, 0.1, 1), row("a", 0.5, 0.11, 1)};
+    EXPECT_FALSE(app::evidence_of(pointers(rows), 0.01));
+    rows[1].error = 0.001;
+    EXPECT_TRUE(app::evidence_of(pointers(rows), 0.01));
+    rows[1].status = "unstable";
+    EXPECT_FALSE(app::evidence_of(pointers(rows), 0.5));
+}
+
+/// A cube of steel with a hole, pulled: elastic, one level.
+std::filesystem::path written_case()
+{
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "cleave_advise.toml";
+    std::ofstream(file) << R"(units = "mm-g-ms"
+[grid]
+cell = 1
+[material.steel]
+density = 7.81e-3
+youngs_modulus = 195e3
+poisson_ratio = 0.3
+[feature.hole]
+centre = [5, 5, 0]
+diameter = 4
+[[body]]
+material = "steel"
+shape = { difference = { from = { box = { lower = [0, 0, 0], upper = [10, 10, 1] } }, holes = [{ feature = "hole" }] } }
+[[symmetry]]
+axis = "z"
+[load.top]
+region = { box = { lower = [-inf, 9, -inf], upper = [inf, inf, inf] } }
+velocity = 1
+axis = "y"
+[end]
+time = 0.01
+)";
+    return file;
+}
+
+/// Three scenes alike (elastic with a hole) on which `nodal` has error (h/L)^1 and flip half of it at four times the cost.
+std::vector<ChartRow> measured()
+{
+    std::vector<ChartRow> rows;
+    for (const char* scene : {"one", "two", "three"})
+        for (const char* scheme : {"nodal", "flip"})
+            for (const Real h : {1.0, 0.5, 0.25}) {
+                const bool flip = std::string(scheme) == "flip";
+                ChartRow& r = rows.emplace_back(row(scheme, h, h / 10 / (flip ? 2 : 1), 1 / (h * h * h * h)));
+                r.scene = scene;
+                r.localised = 1;
+                r.particle_steps = r.cpu_s * (flip ? 1e7 : 4e7);
+            }
+    return rows;
+}
+
+TEST(Advise, takes_the_cheapest_method_that_like_scenes_met_the_error_with)
+{
+    const app::AdviceRequest request{written_case(), {}, 0.05, {}, {}};
+    const std::optional<app::Advice> advice = app::advise(request, measured());
+    ASSERT_TRUE(advice);
+    // nodal needs x = 0.05: 0.2 mm in the hole of 4 mm. flip needs x = 0.1 and a cell of 1/3 mm: at (3/5)^4 of the
+    // particle-steps, four times as dear each, it costs 0.52 of nodal.
+    EXPECT_EQ(advice->method.transfer, "flip");
+    EXPECT_NEAR(advice->finest_mm, 1.0 / 3, 1e-6);
+    EXPECT_EQ(advice->evidence.size(), 3U);
+    const std::string text = app::advice_text(request, *advice);
+    for (const char* part : {"transfer = \"flip\"", "localised feature", "sure? high", "needs 10 cells, measured"})
+        EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
+}
+
+TEST(Advise, a_method_that_failed_on_a_like_scene_is_not_advised)
+{
+    std::vector<ChartRow> rows = measured();
+    for (ChartRow& r : rows)
+        if (r.scene == "two" && r.scheme == "flip" && r.finest_mm == 0.25) r.status = "failed";
+    const std::optional<app::Advice> advice = app::advise({written_case(), {}, 0.05, {}, {}}, rows);
+    ASSERT_TRUE(advice);
+    EXPECT_EQ(advice->method.transfer, "nodal");
+}
+
+TEST(Advise, out_of_reach_is_no_advice)
+{
+    std::vector<ChartRow> rows = measured();
+    for (ChartRow& r : rows) r.error = 0.1; // nothing converges
+    EXPECT_FALSE(app::advise({written_case(), {}, 0.05, {}, {}}, rows));
+}
+
+TEST(LeaveOneOut, tells_met_from_missed)
+{
+    std::vector<ChartRow> rows = measured();
+    for (ChartRow& r : rows) r.file = written_case().string();
+    // The file is the same for all, so every scene counts as the case's own; the left-out one must not.
+    std::vector<app::Verdict> verdicts = app::leave_one_out(rows, 0.05);
+    ASSERT_EQ(verdicts.size(), 3U);
+    for (const app::Verdict& v : verdicts) EXPECT_EQ(v.kind, app::Verdict::Kind::met) << v.scene;
+    for (ChartRow& r : rows)
+        if (r.scene == "three" && r.scheme == "flip") r.error *= 3;
+    verdicts = app::leave_one_out(rows, 0.05);
+    EXPECT_EQ(verdicts[2].kind, app::Verdict::Kind::missed);
+}
+} // namespace
