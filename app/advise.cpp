@@ -114,6 +114,20 @@ struct Fit
     Real finest = 0, cost = 0;
 };
 
+/// Cells of a grid that a machine can hold: beyond, nothing is counted and nothing advised.
+constexpr Real most_cells = 3e6;
+
+/// Cells of edge `cell` that the boxes around the bodies hold, not more than exist if bodies overlap.
+Real cells_around(const solver::Problem& problem, Real cell)
+{
+    Real cells = 0;
+    for (const solver::Body& body : problem.bodies) {
+        const geometry::Bounds bounds = body.shape.bounds();
+        cells += ((bounds.upper - bounds.lower) / cell).array().max(1).prod();
+    }
+    return cells;
+}
+
 /// The coarsest grid of the case whose finest cell is at most `finest`: the case's own cell times 4, 2, 1, 1/2, 1/3,
 /// ..., so that planes and bodies that fitted its lattice still do.
 std::optional<Fit> fitting_grid(const AdviceRequest& request, const solver::Problem& problem, const ChartRow& method,
@@ -126,6 +140,7 @@ std::optional<Fit> fitting_grid(const AdviceRequest& request, const solver::Prob
     for (const Real part : parts) {
         const Real cell = problem.grid.cell * part;
         if (cell / several > finest * (1 + 1e-6)) continue;
+        if (cells_around(problem, cell) > most_cells) return {};
         Fit fit{method_overrides(method, cell, problem), cell / several, 0};
         std::vector<std::string> overrides = request.overrides;
         overrides.insert(overrides.end(), fit.set.begin(), fit.set.end());

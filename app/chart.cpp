@@ -125,9 +125,10 @@ void plan_scene(const io::Scene& scene, std::size_t number, const fs::path& dire
     }
     prepare_runs(runs);
     prepare_runs(schemes);
-    const std::string& default_case = runs.front().resolved;
+    const std::string default_case = runs.front().resolved; // a copy: the runs are moved away one by one
     if (default_case.empty())
         throw core::InputError(fmt::format("scene '{}' cannot be run:\n{}", scene.name, runs.front().not_applicable));
+    const solver::Problem as_it_is = runs.front().problem;
     std::vector<std::string> seen, directories;
     for (std::size_t i = 0; i < all.size(); ++i) {
         StudyRun& run = runs[i];
@@ -149,7 +150,7 @@ void plan_scene(const io::Scene& scene, std::size_t number, const fs::path& dire
         point.row.role = run.resolved == default_case ? "default" : own_scheme ? "scheme" : "";
         point.row.overrides = io::joined(all[i].set, "; ");
         point.row.version = CLEAVE_VERSION;
-        describe_scene(scene, runs.front().problem, point.row);
+        describe_scene(scene, as_it_is, point.row);
         if (run.resolved.empty()) {
             point.row.status = "not applicable";
             point.row.reason = first_complaint(run.not_applicable);

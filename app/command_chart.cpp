@@ -85,7 +85,7 @@ void draw(const fs::path& directory)
     const std::optional<fs::path> script = source_file("tools/plot_chart.py");
     const fs::path log = directory / "plots.log";
     const std::string command =
-        script ? fmt::format("python3 '{}' '{}' -o '{}' > '{}' 2>&1", script->string(),
+        script ? fmt::format("/usr/bin/python3 '{}' '{}' -o '{}' > '{}' 2>&1", script->string(),
                              (directory / "chart.csv").string(), (directory / "plots").string(), log.string())
                : "false";
     if (script && std::system(command.c_str()) == 0) return;

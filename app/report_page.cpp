@@ -227,7 +227,7 @@ std::string report_page(const Report& report)
     html += "<h2>Measures</h2>\n" + measure_table(report);
     if (!report.events.empty())
         html += "<h2>Events on the ligaments</h2>\n" +
-                table(report.events[0], {report.events.begin() + 1, report.events.end()});
+                html_table(report.events[0], {report.events.begin() + 1, report.events.end()});
     html += "<h2>Fields in the mid-plane</h2>\n" + pictures(report);
     html += "<h2>Energies</h2>\n" + energy_chart(report.history);
     html += "<h2>Refinement zones</h2>\n" + zone_table(report.problem.zones);

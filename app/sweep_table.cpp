@@ -41,7 +41,7 @@ const std::string* find_measure(const SweepRow& row, const std::string& name)
     return nullptr;
 }
 
-Real relative_error(const SweepRow& row, const io::Target& target)
+Real relative_error(const SweepRow& row, const io::SweepTarget& target)
 {
     const std::string* text = find_measure(row, target.measure);
     if (!text) {
@@ -70,7 +70,7 @@ SweepRow row_of(const io::Sweep& sweep, const StudyRun& run)
     for (const io::Measure& measure : record.measures) row.measures.emplace_back(measure.name, value_text(measure));
     if (sweep.targets.empty() || row.status != "done") return row;
     row.distance = 0;
-    for (const io::Target& target : sweep.targets)
+    for (const io::SweepTarget& target : sweep.targets)
         if (target.weight > 0) row.distance += target.weight * std::abs(relative_error(row, target));
     return row;
 }
@@ -124,15 +124,15 @@ std::string sweep_text(const io::Sweep& sweep, const std::vector<SweepRow>& rows
     std::size_t width = 4;
     for (const SweepRow& row : rows) width = std::max(width, row.label.size());
     std::string text = fmt::format("{:<{}}  {:<14} {:>9}", "run", width, "status", "distance");
-    for (const io::Target& target : sweep.targets) text += fmt::format(" {:>16}", target.measure);
+    for (const io::SweepTarget& target : sweep.targets) text += fmt::format(" {:>16}", target.measure);
     if (!sweep.targets.empty()) {
         text += fmt::format("\n{:<{}}  {:<14} {:>9}", "(wanted)", width, "", "");
-        for (const io::Target& target : sweep.targets) text += fmt::format(" {:>16.6g}", target.value);
+        for (const io::SweepTarget& target : sweep.targets) text += fmt::format(" {:>16.6g}", target.value);
     }
     for (const SweepRow& row : rows) {
         text += fmt::format("\n{:<{}}  {:<14} {:>9}", row.label, width, row.status,
                             std::isfinite(row.distance) ? fmt::format("{:.4f}", row.distance) : "-");
-        for (const io::Target& target : sweep.targets) {
+        for (const io::SweepTarget& target : sweep.targets) {
             const std::string* value = find_measure(row, target.measure);
             if (!value || value->empty())
                 text += fmt::format(" {:>16}", value ? "not reached" : "-");

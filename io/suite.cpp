@@ -26,7 +26,8 @@ Axis read_axis(Diagnostics& diagnostics, const Node& item, const std::string& pa
     axis.name = section.text("name");
     axis.resolution = section.boolean("resolution", false);
     if (!section.has("setting"))
-        section.error("setting", fmt::format("axis '{}' has no settings", axis.name), fmt::format("add [[{}.setting]] tables", path));
+        section.error("setting", fmt::format("axis '{}' has no settings", axis.name),
+                      fmt::format("add [[{}.setting]] tables", path));
     std::vector<std::string> seen;
     for_each_table(diagnostics, section.find("setting"), path + ".setting", [&](const Node& one) {
         SectionReader inner(diagnostics, &one, "suite.axis.setting", path + ".setting", one.place);

@@ -99,16 +99,16 @@ const solver::Reference* find_reference(Diagnostics& diagnostics, SectionReader&
 }
 
 /// The measures of the reference with weight 1, but as [[target]] says where there is one.
-std::vector<Target> merged(Diagnostics& diagnostics, const std::vector<WrittenTarget>& written,
-                           const solver::Reference* reference)
+std::vector<SweepTarget> merged(Diagnostics& diagnostics, const std::vector<WrittenTarget>& written,
+                                const solver::Reference* reference)
 {
-    std::vector<Target> targets;
+    std::vector<SweepTarget> targets;
     if (reference)
         for (const auto& [measure, value] : reference->measure)
             if (std::isfinite(value) && value != 0) targets.push_back({measure, value, 1});
     for (const WrittenTarget& one : written) {
-        auto found =
-            std::find_if(targets.begin(), targets.end(), [&](const Target& t) { return t.measure == one.measure; });
+        auto found = std::find_if(targets.begin(), targets.end(),
+                                  [&](const SweepTarget& t) { return t.measure == one.measure; });
         if (found == targets.end() && !one.value)
             diagnostics.error(one.place, fmt::format("target '{}' has no value", one.measure),
                               reference ? "the reference has none either" : "add value, or name a reference");

@@ -5,7 +5,7 @@
 
 namespace io
 {
-struct Target
+struct SweepTarget
 {
     std::string measure; // of run.json, without "measures."
     Real value = 0;      // in mm-g-ms
@@ -15,12 +15,12 @@ struct Target
 struct Sweep
 {
     std::string title;
-    std::filesystem::path file;   // the case
-    std::vector<std::string> set; // overrides of every run
-    int threads = 1;              // of each run
-    std::optional<Real> limit;    // s, processor time of a run
-    std::vector<Setting> runs;    // listed, or every combination
-    std::vector<Target> targets;  // empty: nothing to compare with
+    std::filesystem::path file;       // the case
+    std::vector<std::string> set;     // overrides of every run
+    int threads = 1;                  // of each run
+    std::optional<Real> limit;        // s, processor time of a run
+    std::vector<Setting> runs;        // listed, or every combination
+    std::vector<SweepTarget> targets; // empty: nothing to compare with
 };
 
 /// @error core::InputError with the text of every error, also those of the case; core::FileError if `file` cannot be

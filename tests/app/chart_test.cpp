@@ -5,6 +5,7 @@
 #include "app/chart_summary.h"
 #include "app/leave_one_out.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -72,7 +73,8 @@ TEST(ChartSummary, order_is_the_slope)
 TEST(ChartSummary, several_levels_against_one_at_equal_error)
 {
     // One level: error 1/cost. Two levels: the error of cost 10 for 2.
-    std::vector<ChartRow> rows{row("default", 1, 0.1, 10), row("default", 0.5, 0.01, 100), row("default", 0.5, 0.03, 2)};
+    std::vector<ChartRow> rows{row("default", 1, 0.1, 10), row("default", 0.5, 0.01, 100),
+                               row("default", 0.5, 0.03, 2)};
     rows[2].levels = 2;
     bool beyond = false;
     EXPECT_NEAR(*app::two_level_factor(rows, beyond), (1 / 0.03) / 2, 1e-9);
@@ -153,7 +155,9 @@ TEST(Advise, no_evidence_from_errors_that_do_not_fall_or_a_failed_finest_run)
 /// A cube of steel with a hole, pulled: elastic, one level.
 std::filesystem::path written_case()
 {
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "cleave_advise.toml";
+    const std::filesystem::path file =
+        std::filesystem::path(testing::TempDir()) /
+        fmt::format("cleave_{}.toml", testing::UnitTest::GetInstance()->current_test_info()->name());
     std::ofstream(file) << R"(units = "mm-g-ms"
 [grid]
 cell = 1
@@ -179,7 +183,8 @@ time = 0.01
     return file;
 }
 
-/// Three scenes alike (elastic with a hole) on which `nodal` has error (h/L)^1 and flip half of it at four times the cost.
+/// Three scenes alike (elastic with a hole) on which `nodal` has error (h/L)^1 and flip half of it at four times the
+/// cost.
 std::vector<ChartRow> measured()
 {
     std::vector<ChartRow> rows;

@@ -457,7 +457,8 @@ TEST(Cases, shipped_cases_are_valid)
     int count = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(CLEAVE_SOURCE_DIR "/cases")) {
         if (entry.path().extension() != ".toml" || entry.path().stem() == "common") continue;
-        if (const auto folder = entry.path().parent_path().stem(); folder == "point" || folder == "chart" || folder == "sweep")
+        if (const auto folder = entry.path().parent_path().stem();
+            folder == "point" || folder == "chart" || folder == "sweep")
             continue; // not cases to run: point_case_test.cpp, suite_test.cpp
         ++count;
         const io::Case read = io::read_case_with_warnings(entry.path());

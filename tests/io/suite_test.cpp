@@ -115,8 +115,8 @@ TEST_F(Suite, is_read)
 TEST_F(Suite, says_where_an_axis_is_misspelt)
 {
     EXPECT_EQ(suite_complaint(with(valid_suite, "[[\"scheme\", \"cells\"]]", "[[\"schema\", \"cells\"]]")),
-              "study.toml:20:14: error: there is no axis 'schema'\n"
-              "   20 | products = [[\"schema\", \"cells\"]]\n"
+              "study.toml:21:14: error: there is no axis 'schema'\n"
+              "   21 | products = [[\"schema\", \"cells\"]]\n"
               "      |              ^~~~~~~~  did you mean 'scheme'?\n"
               "   axes here: scheme, cells\n"
               "1 error");
@@ -129,8 +129,9 @@ TEST_F(Suite, gathers_every_error)
     text = with(text, "\"grid.cell=0.25\"", "\"grid.cell\"");
     text = with(text, "name = \"own axis\"", "name = \"plate\"");
     const std::string found = suite_complaint(text);
-    for (const char* part : {"unknown key 'mesure' in [scene]", "did you mean 'measure'?", "there is no case file 'cas.toml'",
-                             "'grid.cell' is no override", "there are two scenes 'plate'", "missing key 'measure' in [scene]"})
+    for (const char* part :
+         {"unknown key 'mesure' in [scene]", "did you mean 'measure'?", "there is no case file 'cas.toml'",
+          "'grid.cell' is no override", "there are two scenes 'plate'", "missing key 'measure' in [scene]"})
         EXPECT_NE(found.find(part), std::string::npos) << part << "\nin\n" << found;
     EXPECT_NE(found.find("5 errors"), std::string::npos) << found;
 }
@@ -149,8 +150,7 @@ TEST_F(Sweep, makes_every_combination)
     ASSERT_EQ(sweep.runs.size(), 4U);
     EXPECT_EQ(sweep.runs[0].label, "s_max=3000 MPa levels=1");
     EXPECT_EQ(sweep.runs[1].label, "s_max=3000 MPa levels=2");
-    EXPECT_EQ(sweep.runs[2].set,
-              (std::vector<std::string>{"material.steel.decohesion.s_max=4900", "grid.levels=1"}));
+    EXPECT_EQ(sweep.runs[2].set, (std::vector<std::string>{"material.steel.decohesion.s_max=4900", "grid.levels=1"}));
     ASSERT_EQ(sweep.targets.size(), 1U);
     EXPECT_EQ(sweep.targets[0].weight, 2);
 }

@@ -65,7 +65,7 @@ TEST(SurfaceForces, of_a_plane_face_are_exact_whatever_the_cells)
         EXPECT_LT((forces_of(problem).total[0] - Vec3(3, 5, 7)).norm(), 1e-12) << cell;
     }
     solver::Problem problem = free_bar(0.5);
-    problem.surface_loads = {surface_load(Kind::pressure, support::beyond(1, 3.9, 1), 10, {})};
+    problem.surface_loads = {surface_load(Kind::pressure, support::beyond(1, 3.9, 1), 10, Vec3::Zero())};
     problem.surface_loads[0].facing = Vec3(0, 1, 0);
     EXPECT_LT((forces_of(problem).total[0] - Vec3(0, -20, 0)).norm(), 1e-12);
 }
@@ -76,7 +76,7 @@ TEST(SurfaceForces, do_not_push_on_symmetry_planes_or_level_interfaces)
     problem.symmetry = {{0, 0}};
     problem.grid.levels = 2;
     problem.zones = {support::zone(geometry::box({-1, -1, -1}, {1, 2.1, 2}), 1)};
-    problem.surface_loads = {surface_load(Kind::pressure, support::everywhere(), 10, {})};
+    problem.surface_loads = {surface_load(Kind::pressure, support::everywhere(), 10, Vec3::Zero())};
     const solver::SurfaceForces surface = forces_of(problem);
     // All faces but x = 0: what pushes on x = 2 is not balanced.
     EXPECT_LT((surface.total[0] - Vec3(-40, 0, 0)).norm(), 1e-9);
@@ -90,7 +90,7 @@ TEST(SurfaceForces, in_a_hole_are_its_projected_area)
     problem.symmetry = {{0, 0}, {1, 0}};
     problem.bodies[0].shape = geometry::subtract(geometry::box({0, 0, 0}, {3, 3, 1}), {hole});
     problem.surface_loads = {
-        surface_load(Kind::pressure, geometry::cylinder({0, 0, 0.01}, {0, 0, 0.99}, radius + 0.3), 10, {})};
+        surface_load(Kind::pressure, geometry::cylinder({0, 0, 0.01}, {0, 0, 0.99}, radius + 0.3), 10, Vec3::Zero())};
     const Vec3 total = forces_of(problem).total[0];
     EXPECT_NEAR(total[0], 10 * radius, 0.01 * 10 * radius);
     EXPECT_NEAR(total[1], 10 * radius, 0.01 * 10 * radius);
@@ -145,7 +145,7 @@ TEST(ExternalForce, goes_on_with_the_same_bits_after_a_restart)
         problem.motions = {{"spin", problem.materials[0].elastic, solver::Spin{{1, 2, 0.5}, 2, 15, {30, 0, 0}}}};
         problem.bodies[0].initial = 0;
         problem.bodies[0].body_force = 0;
-        problem.surface_loads = {surface_load(Kind::pressure, support::beyond(1, 3, 1), 5, {})};
+        problem.surface_loads = {surface_load(Kind::pressure, support::beyond(1, 3, 1), 5, Vec3::Zero())};
         problem.surface_loads[0].ramp = {solver::Ramp::Kind::linear, 0.05};
         Job run = support::started(problem);
         support::advance(70, run);
