@@ -73,9 +73,9 @@ std::vector<std::string> modelled(const solver::Problem& problem, const solver::
             fmt::format("sub-cycling: a step of the coarsest level is {} of the finest", solver::substeps(problem)));
     for (const solver::SymmetryPlane& plane : problem.symmetry)
         text.push_back(fmt::format("half model: symmetry plane {} = {} mm", "xyz"[plane.axis], plane.at));
-    text.push_back(problem.grid.edge == solver::EdgeTreatment::fraction
-                       ? "cut cells: particle volumes scaled by the part inside the body"
-                       : "cut cells: particles in or out by their centre (staircase)");
+    text.push_back(problem.grid.edge == solver::EdgeTreatment::staircase
+                       ? "cut cells: particles in or out by their centre (staircase)"
+                       : "cut cells: particle volumes scaled by the part inside the body");
     for (const material::Material& m : problem.materials) {
         text.push_back(
             fmt::format("{}: {}{}", m.name, m.plastic ? "von Mises, linear hardening" : "elastic",

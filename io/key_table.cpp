@@ -46,10 +46,11 @@ constexpr Key keys[] = {
         choice,
         defaulted,
         "\"fraction\"",
-        "particles cut by a surface: volume scaled by the part inside, or in or out by centre",
+        "particles cut by a surface: volume scaled by the part inside, in or out by centre, or the part inside from "
+        "distances to the surface, closer for curved walls that run along an axis somewhere",
         {},
         finite,
-        "fraction|staircase"},
+        "fraction|staircase|distance"},
 
     Key{"refine", "zone", table, optional, "", "fixed zones: [[refine.zone]]"},
     Key{"refine.zone", "name", text, defaulted, "\"\"", "for messages and reports"},

@@ -1,10 +1,11 @@
 #include "particles/seed.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace particles
 {
-Real inside_fraction(const geometry::Shape& shape, const Vec3& centre, Real half)
+Real inside_fraction(const geometry::Shape& shape, const Vec3& centre, Real half, EdgeTreatment edge)
 {
     // CSG distances are lower bounds of the true distance, so a large value is a safe decision.
     const Real distance = shape.distance(centre);
@@ -12,14 +13,18 @@ Real inside_fraction(const geometry::Shape& shape, const Vec3& centre, Real half
     if (distance > reach) return 0;
     if (distance < -reach) return 1;
     constexpr int samples = 4;
-    int inside = 0;
+    const Real width = 2 * half / samples;
+    Real inside = 0;
     for (int i = 0; i < samples; ++i)
         for (int j = 0; j < samples; ++j)
             for (int k = 0; k < samples; ++k) {
                 const auto offset = [&](int n) { return half * ((2 * n + 1) / Real(samples) - 1); };
-                inside += shape.contains(centre + Vec3(offset(i), offset(j), offset(k))) ? 1 : 0;
+                const Vec3 at = centre + Vec3(offset(i), offset(j), offset(k));
+                inside += edge == EdgeTreatment::distance
+                              ? std::clamp(Real(0.5) - shape.distance(at) / width, Real(0), Real(1))
+                              : Real(shape.contains(at) ? 1 : 0);
             }
-    return inside / Real(samples * samples * samples);
+    return inside / (samples * samples * samples);
 }
 
 namespace
@@ -54,8 +59,9 @@ int seed_cell(const geometry::Shape& shape, const SeedTraits& traits, const Vec3
         for (int j = 0; j < per_axis; ++j)
             for (int k = 0; k < per_axis; ++k) {
                 const Vec3 at = lower + side * Vec3(i + Real(0.5), j + Real(0.5), k + Real(0.5));
-                const Real fraction = traits.edge == EdgeTreatment::staircase ? Real(shape.contains(at) ? 1 : 0)
-                                                                              : inside_fraction(shape, at, side / 2);
+                const Real fraction = traits.edge == EdgeTreatment::staircase
+                                          ? Real(shape.contains(at) ? 1 : 0)
+                                          : inside_fraction(shape, at, side / 2, traits.edge);
                 if (fraction < smallest_fraction) continue;
                 append(traits, at, fraction * side * side * side, level, particles);
                 ++added;

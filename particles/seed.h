@@ -11,6 +11,7 @@ enum class EdgeTreatment
 {
     fraction,  // volume scaled by the part of the sub-cell inside the body
     staircase, // in or out by its centre
+    distance,  // as fraction, but from distances to the surface
 };
 
 /// What every new particle of a body shares.
@@ -39,5 +40,10 @@ int seed_cell(const geometry::Shape& shape, const SeedTraits& traits, const Vec3
 
 /// Part of the cube [centre - half, centre + half]^3 inside the shape, from 4^3 sample points when the surface may cut
 /// it; exact 0 or 1 when it cannot.
-Real inside_fraction(const geometry::Shape& shape, const Vec3& centre, Real half);
+///
+/// Points count fully or not at all: where the surface is nearly parallel to a face of the cube all of them may lie on
+/// one side, an error of up to 1/8. With EdgeTreatment::distance each counts with clamp(1/2 - d / w), d its signed
+/// distance and w the spacing of the points: exact for planes along the axes, of second order else.
+Real inside_fraction(const geometry::Shape& shape, const Vec3& centre, Real half,
+                     EdgeTreatment edge = EdgeTreatment::fraction);
 } // namespace particles

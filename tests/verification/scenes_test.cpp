@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+
 namespace
 {
 using Overrides = std::vector<std::string>;
@@ -89,4 +92,40 @@ TEST(Scenes, cracks_dissipate_their_fracture_energy_at_every_cell_size)
                 EXPECT_NEAR(support::results_of(file, overrides).at("crack_energy_mJ") / 0.25, 1, 0.01)
                     << file << ' ' << cell;
             }
+}
+
+/// Two levels reach the error of the fine cells everywhere with a fifth of the particles.
+TEST(Scenes, c10_hole_converges_and_two_levels_do_as_well_as_fine_cells)
+{
+    const auto errors = [](const char* file, const char* cell) {
+        const support::Results results = support::results_of(file, {cell});
+        return std::array{std::abs(results.at("edge_mm") / 2.86028259e-3 - 1),
+                          std::abs(results.at("pole_mm") / 1.57540211e-3 - 1),
+                          std::abs(results.at("concentration") / 2.68809244 - 1)};
+    };
+    const auto coarse = errors("verification/c10-kirsch/case.toml", "grid.cell=0.5"),
+               fine = errors("verification/c10-kirsch/case.toml", "grid.cell=0.25"),
+               two = errors("verification/c10-kirsch/two-level.toml", "grid.cell=0.5");
+    EXPECT_LT(fine[0], 0.003);
+    EXPECT_GT(coarse[0] / fine[0], 3.6); // second order
+    EXPECT_LT(two[0], 1.15 * fine[0]);
+    EXPECT_LT(fine[1], 0.003);
+    EXPECT_LT(two[1], 0.006);
+    EXPECT_GT(coarse[2] / fine[2], 1.8); // the stress of the outermost particle: first order
+    EXPECT_LT(two[2], 1.05 * fine[2]);
+}
+
+/// Hill's displacements from elastic to 6 % below the limit pressure.
+TEST(Scenes, c11_cylinder_yields_as_hill_says)
+{
+    struct Point
+    {
+        Real pressure, outer, largest_error;
+    };
+    for (const Point& point : {Point{100, 0.05778, 0.01}, Point{140, 0.08724, 0.01}, Point{180, 0.15330, 0.035}}) {
+        const support::Results results = support::results_of("verification/c11-cylinder/case.toml",
+                                                             {fmt::format("load.inside.pressure={}", point.pressure)});
+        EXPECT_NEAR(results.at("outer_mm") / point.outer, 1, point.largest_error) << point.pressure;
+        EXPECT_LT(results.at("kinetic_mJ"), 0.005 * results.at("elastic_mJ")) << point.pressure;
+    }
 }
