@@ -129,3 +129,25 @@ TEST(Scenes, c11_cylinder_yields_as_hill_says)
         EXPECT_LT(results.at("kinetic_mJ"), 0.005 * results.at("elastic_mJ")) << point.pressure;
     }
 }
+
+/// The averaged dilatation finds the limit load and stays there; dilatation at the points locks and goes on rising.
+TEST(Scenes, c14_notched_strip_reaches_its_limit_load)
+{
+    const auto loads = [](std::vector<std::string> overrides) {
+        for (const char* uniform : {"grid.levels=1", "refine.zone=[]"}) overrides.emplace_back(uniform);
+        return support::results_of("verification/c14-notched-strip/case.toml", overrides);
+    };
+    const support::Results cell = loads({}), point = loads({"material.metal.dilatation=point"});
+    EXPECT_GT(cell.at("limit") / 2.9685, 1);
+    EXPECT_LT(cell.at("limit") / 2.9685, 1.08);
+    EXPECT_LT(cell.at("end_limit"), cell.at("limit")); // beyond the plateau
+    EXPECT_GT(point.at("limit") / 2.9685, 1.25);
+    EXPECT_GT(point.at("end_limit"), 0.999 * point.at("limit")); // still rising
+    EXPECT_LT(cell.at("kinetic_mJ"), 0.02 * cell.at("elastic_mJ"));
+}
+
+TEST(Scenes, c14_two_levels_reach_the_limit_load_of_fine_cells)
+{
+    const support::Results two = support::results_of("verification/c14-notched-strip/case.toml", {});
+    EXPECT_NEAR(two.at("limit") / 2.9685, 1.038, 0.003); // fine cells everywhere: 1.0372
+}
