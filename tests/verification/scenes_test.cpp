@@ -130,6 +130,23 @@ TEST(Scenes, c11_cylinder_yields_as_hill_says)
     }
 }
 
+/// Length, foot and strain within the published ranges.
+TEST(Scenes, c12_taylor_bar_ends_in_the_published_shape)
+{
+    const support::Results total = support::results_of("verification/c12-taylor/case.toml", {});
+    EXPECT_GT(total.at("length_mm"), 21.26);
+    EXPECT_LT(total.at("length_mm"), 21.66);
+    EXPECT_GT(total.at("radius_mm"), 6.97);
+    EXPECT_LT(total.at("radius_mm"), 7.24);
+    EXPECT_GT(total.at("max_strain"), 2.47);
+    EXPECT_LT(total.at("max_strain"), 3.25);
+    EXPECT_NEAR(total.at("residual_share"), 0, 0.005);
+    const support::Results updated =
+        support::results_of("verification/c12-taylor/case.toml", {"numerics.formulation=updated"});
+    EXPECT_NEAR(updated.at("length_mm") / total.at("length_mm"), 1, 0.01);
+    EXPECT_NEAR(updated.at("radius_mm") / total.at("radius_mm"), 1, 0.015);
+}
+
 /// The averaged dilatation finds the limit load and stays there; dilatation at the points locks and goes on rising.
 TEST(Scenes, c14_notched_strip_reaches_its_limit_load)
 {
