@@ -96,6 +96,36 @@ double box_flops(const BenchCase& scheme)
 /// Besides what points move: the layer of nodes around a leaf's tile, 602 nodes of 64 B, is read for motion, and
 /// written and read for sums, each spread over 4096 particles.
 constexpr double box_skin_bytes = 3 * 602 * 64 / 4096.0;
+
+double median(std::vector<double> values)
+{
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+transfer::MachineLimits median(const std::vector<transfer::MachineLimits>& limits)
+{
+    std::vector<double> triad, fma;
+    for (const transfer::MachineLimits& one : limits) {
+        triad.push_back(one.triad_bytes_per_s);
+        fma.push_back(one.fma_flops_per_s);
+    }
+    return {median(triad), median(fma)};
+}
+
+transfer::MachineLimits mean(const transfer::MachineLimits& a, const transfer::MachineLimits& b)
+{
+    return {(a.triad_bytes_per_s + b.triad_bytes_per_s) / 2, (a.fma_flops_per_s + b.fma_flops_per_s) / 2};
+}
+
+/// Particle-steps per second that either limit allows.
+double roof(const BenchResult& result, const transfer::MachineLimits& limits)
+{
+    const double width = result.scheme.precision == solver::Precision::mixed ? 2 : 1; // lanes in single precision
+    return std::min(limits.triad_bytes_per_s / result.bytes_per_particle_step,
+                    width * limits.fma_flops_per_s / result.flops_per_particle_step);
+}
 } // namespace
 
 double counted_flops(const BenchCase& scheme)
@@ -117,12 +147,13 @@ double counted_bytes(const BenchCase& scheme)
     }
     const double skin = scheme.basis == solver::Basis::gimp ? box_skin_bytes : 0;
     double bytes = (scheme.formulation == solver::Formulation::total ? 397 : 246) + node + skin;
-    if (scheme.stress_update == solver::StressUpdate::musl) bytes += 104 + node + skin;
+    // The pass before: position, velocity and mass to the grid; the velocity is written there, not in the main pass.
+    if (scheme.stress_update == solver::StressUpdate::musl) bytes += 56 + node + skin;
     if (scheme.transfer == solver::Transfer::apic) bytes += 144;
     return bytes;
 }
 
-BenchResult bench_block(const BenchCase& scheme, int cells, int steps)
+BenchResult bench_block(const BenchCase& scheme, int cells, int steps, int threads)
 {
     const solver::Problem problem = block(scheme, cells);
     const solver::Prepared prepared = solver::prepare(problem);
@@ -132,19 +163,32 @@ BenchResult bench_block(const BenchCase& scheme, int cells, int steps)
         stir_nodes(state);
     else
         stir_particles(prepared, state);
-    std::vector<double> seconds;
-    for (int n = 0; n < steps; ++n) {
-        const auto start = std::chrono::steady_clock::now();
-        solver::advance(problem, prepared, state, derived);
-        seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-    }
-    std::sort(seconds.begin(), seconds.end());
+
     BenchResult result;
     result.scheme = scheme;
+    result.threads = threads;
     result.particles = state.particles.size();
-    result.particle_steps_per_s = static_cast<double>(result.particles) / seconds[seconds.size() / 2];
     result.bytes_per_particle_step = counted_bytes(scheme);
     result.flops_per_particle_step = counted_flops(scheme);
+
+    constexpr int rounds = 5;
+    std::vector<double> rates, shares;
+    std::vector<transfer::MachineLimits> limits{transfer::measure_limits(threads)};
+    for (int round = 0; round < rounds; ++round) {
+        std::vector<double> here;
+        for (int n = round; n < std::max(steps, rounds); n += rounds) {
+            const auto start = std::chrono::steady_clock::now();
+            solver::advance(problem, prepared, state, derived);
+            const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+            here.push_back(static_cast<double>(result.particles) / spent.count());
+        }
+        limits.push_back(transfer::measure_limits(threads));
+        shares.push_back(median(here) / roof(result, mean(limits.end()[-2], limits.back())));
+        rates.insert(rates.end(), here.begin(), here.end());
+    }
+    result.particle_steps_per_s = median(rates);
+    result.roof_share = median(shares);
+    result.limits = median(limits);
     return result;
 }
 } // namespace app

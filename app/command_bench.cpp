@@ -1,14 +1,13 @@
 /// `cleave bench`: throughput of the whole step beside what this machine can do at most.
 #include "app/bench_block.h"
 #include "app/commands.h"
-#include "transfer/machine_limits.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
-#include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <thread>
@@ -74,19 +73,7 @@ bool wanted(const BenchCase& scheme, const Options& options)
            fits(options.precision, name(scheme.precision));
 }
 
-BenchResult measured(const BenchCase& scheme, const Options& options, int threads,
-                     const transfer::MachineLimits& limits)
-{
-    BenchResult result = bench_block(scheme, options.cells, options.steps);
-    result.threads = threads;
-    const double width = scheme.precision == solver::Precision::mixed ? 2 : 1; // twice the lanes in single precision
-    const double roof = std::min(limits.triad_bytes_per_s / result.bytes_per_particle_step,
-                                 width * limits.fma_flops_per_s / result.flops_per_particle_step);
-    result.roof_share = result.particle_steps_per_s / roof;
-    return result;
-}
-
-nlohmann::json entry(const BenchResult& r, const transfer::MachineLimits& limits)
+nlohmann::json entry(const BenchResult& r)
 {
     return {{"basis", name(r.scheme.basis)},
             {"formulation", name(r.scheme.formulation)},
@@ -100,8 +87,8 @@ nlohmann::json entry(const BenchResult& r, const transfer::MachineLimits& limits
             {"bytes_per_particle_step", r.bytes_per_particle_step},
             {"flops_per_particle_step", r.flops_per_particle_step},
             {"roof_share", r.roof_share},
-            {"triad_GBs", limits.triad_bytes_per_s / 1e9},
-            {"fma_GFs", limits.fma_flops_per_s / 1e9}};
+            {"triad_GBs", r.limits.triad_bytes_per_s / 1e9},
+            {"fma_GFs", r.limits.fma_flops_per_s / 1e9}};
 }
 
 int bench(const Options& options)
@@ -115,25 +102,26 @@ int bench(const Options& options)
     nlohmann::json all = nlohmann::json::array();
     for (const int t : threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(t));
-        const transfer::MachineLimits limits = transfer::measure_limits(t);
         if (!options.json)
-            fmt::print("{} thread{}: triad {:.1f} GB/s, multiply-add peak {:.0f} GF/s\n"
-                       "{:<9} {:<9} {:<5} {:<5} {:<5} {:>6} {:>10} {:>12} {:>8} {:>9} {:>6}\n",
-                       t, t == 1 ? "" : "s", limits.triad_bytes_per_s / 1e9, limits.fma_flops_per_s / 1e9, "basis",
-                       "form.", "upd.", "tran.", "prec.", "levels", "particles", "M steps/s", "B/step", "flop/step",
-                       "roof");
+            fmt::print(
+                "{} thread{}\n{:<9} {:<9} {:<5} {:<5} {:<5} {:>6} {:>10} {:>10} {:>7} {:>10} {:>6} {:>6} {:>6}\n", t,
+                t == 1 ? "" : "s", "basis", "form.", "upd.", "tran.", "prec.", "levels", "particles", "M steps/s",
+                "B/step", "flop/step", "GB/s", "GF/s", "roof");
         for (const BenchCase& scheme : schemes()) {
             if (!wanted(scheme, options)) continue;
-            const BenchResult r = measured(scheme, options, t, limits);
-            all.push_back(entry(r, limits));
-            if (!options.json)
-                fmt::print("{:<9} {:<9} {:<5} {:<5} {:<5} {:>6} {:>10} {:>12.1f} {:>8.0f} {:>9.0f} {:>5.0f}%\n",
-                           name(r.scheme.basis), name(r.scheme.formulation), name(r.scheme.stress_update),
-                           name(r.scheme.transfer), name(r.scheme.precision), r.scheme.levels, r.particles,
-                           r.particle_steps_per_s / 1e6, r.bytes_per_particle_step, r.flops_per_particle_step,
-                           100 * r.roof_share);
+            const BenchResult r = bench_block(scheme, options.cells, options.steps, t);
+            all.push_back(entry(r));
+            if (options.json) continue;
+            fmt::print(
+                "{:<9} {:<9} {:<5} {:<5} {:<5} {:>6} {:>10} {:>10.1f} {:>7.0f} {:>10.0f} {:>6.1f} {:>6.0f} {:>5.0f}%\n",
+                name(r.scheme.basis), name(r.scheme.formulation), name(r.scheme.stress_update), name(r.scheme.transfer),
+                name(r.scheme.precision), r.scheme.levels, r.particles, r.particle_steps_per_s / 1e6,
+                r.bytes_per_particle_step, r.flops_per_particle_step, r.limits.triad_bytes_per_s / 1e9,
+                r.limits.fma_flops_per_s / 1e9, 100 * r.roof_share);
+            std::fflush(stdout);
         }
     }
+    if (!options.json) fmt::print("GB/s: triad; GF/s: multiply-adds in double; roof: share of the nearer limit\n");
     if (options.json) fmt::print("{}\n", all.dump(2));
     return 0;
 }
@@ -147,7 +135,7 @@ void add_bench(CLI::App& program, Command& chosen)
     command->add_flag("--json", options->json, "one array of objects instead of a table");
     command->add_option("--cells", options->cells, "cells per side of the block (default 50: a million particles)")
         ->check(CLI::Range(4, 200));
-    command->add_option("--steps", options->steps, "steps measured per scheme, the median counts")
+    command->add_option("--steps", options->steps, "steps measured per scheme, in five rounds; the median counts")
         ->check(CLI::Range(1, 10000));
     command->add_option("--threads", options->threads, "thread counts (default: 1 and all)")
         ->check(CLI::PositiveNumber);

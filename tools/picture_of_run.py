@@ -56,15 +56,19 @@ def draw_curve(axes, directory):
 def draw_specimen(axes, figure, directory):
     time, points, data, side = read_frame(directory)
     strain, damage = data["eq_plastic_strain"], data["damage"]
-    lowest = points[:, 2].min() + (side.max() if side is not None else 0.3)
+    whole = damage < 1  # separated particles may have flown off: the rest tells plane and frame
+    lowest = points[whole, 2].min() + (side.max() if side is not None else 0.3)
     middle = points[:, 2] < lowest
     size = (side[middle] if side is not None else np.full(middle.sum(), 0.15)) * 14
-    intact = damage[middle] < 1
+    intact = whole[middle]
     at = points[middle]
     shown = axes.scatter(at[intact, 0], at[intact, 1], c=strain[middle][intact], s=size[intact] ** 2 / 3, cmap="inferno_r",
                          vmin=0, vmax=0.5, marker="s", linewidths=0)
     axes.scatter(at[~intact, 0], at[~intact, 1], color="tab:cyan", s=size[~intact] ** 2 / 4, marker="s", linewidths=0,
                  label="separated")
+    lower, upper = at[intact].min(axis=0) - 0.5, at[intact].max(axis=0) + 0.5
+    axes.set_xlim(lower[0], upper[0])
+    axes.set_ylim(lower[1], upper[1])
     axes.set_aspect("equal")
     axes.set_axis_off()
     axes.set_title(f"middle plane, t = {time:.3f} ms", fontsize=9)

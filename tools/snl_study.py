@@ -1,14 +1,15 @@
 #!/usr/bin/python3
-"""The challenge specimen under one change at a time: runs, pictures and docs/snl.md.
+"""The study of Yang et al. 2014 and what it lacks: runs, pictures and docs/snl.md.
 
-usage: tools/snl_study.py [-o DIRECTORY] [--case CASE] [--page-only] [--cleave PROGRAM] [NAME ...]
+usage: tools/snl_study.py [-o DIRECTORY] [--group GROUP] [--page-only] [--cleave PROGRAM] [NAME ...]
 
-Runs the variants of VARIANTS (or those named) on CASE (default cases/snl/preview.toml) into DIRECTORY/CASE-NAME (default
-results/snl-study), one after the other, skipping those that are done; then writes docs/snl.md, docs/snl-CASE.csv and the
-pictures in docs/img from all results it finds. Needs python3-h5py and python3-matplotlib.
+Runs the variants of VARIANTS (or one group, or those named) into DIRECTORY/NAME (default results/snl-study), one after
+the other, skipping those that are done; then writes the tables of docs/snl.md, docs/snl.csv and the pictures in docs/img
+from all results it finds. Needs python3-h5py and python3-matplotlib.
 """
 import argparse
 import csv
+import dataclasses
 import json
 import pathlib
 import subprocess
@@ -23,11 +24,21 @@ import numpy as np
 from picture_of_run import read_curve, read_frame
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PLAIN = ['material.steel.dilatation="point"']
+DECOHESION = "material.steel.decohesion"
+AVERAGED = ['material.steel.dilatation="cell"']
+D_AT = "feature.D.centre=[18.52, {:.2f}, 0]"
+
+
+@dataclasses.dataclass
+class Variant:
+    group: str
+    case: str  # below cases
+    change: str
+    overrides: list = dataclasses.field(default_factory=list)
 
 
 def mode(name):
-    return [f'material.steel.decohesion.mode="{name}"']
+    return [f'{DECOHESION}.mode="{name}"']
 
 
 def speed(value, end):
@@ -35,28 +46,53 @@ def speed(value, end):
             f'end.time="{end} ms"']
 
 
-# name: (what is changed, overrides)
+def grip_speed(value):
+    """Crosshead of the coupon: the same elongation at any speed, the start in the same share of the time."""
+    return [f'load.grip.velocity="{value} m/s"', f'load.grip.ramp.time="{0.25 / value} ms"', f'end.time="{2.5 / value} ms"',
+            f'output.particles.every_time="{0.25 / value} ms"', 'output.history.every_time="5 us"']
+
+
+PAPER, FINE, OBJECTIVE, COUPON = "snl/preview.toml", "snl/challenge-lean.toml", "snl/objective/preview.toml", "tension/coupon.toml"
 VARIANTS = {
-    "mixed": ("nothing: mixed mode, averaged dilatation", []),
-    "opening": ("mode I only", mode("opening")),
-    "shear": ("mode II only", mode("shear")),
-    "mixed-plain": ("mixed mode, plain points", PLAIN),
-    "opening-plain": ("mode I only, plain points", PLAIN + mode("opening")),
-    "shear-plain": ("mode II only, plain points", PLAIN + mode("shear")),
-    "s3000": ("s_max = 3000 MPa", ['material.steel.decohesion.s_max="3000 MPa"']),
-    "s3000-plain": ("s_max = 3000 MPa, plain points", PLAIN + ['material.steel.decohesion.s_max="3000 MPa"']),
-    "shifted-x": ("lattice moved by a quarter cell in x", ["grid.origin=[0.125, 0, 0]"]),
-    "shifted-y": ("lattice moved by a quarter cell in y", ["grid.origin=[0, 0.125, 0]"]),
-    "D-0.10": ("hole D lower by 0.10 mm", ["feature.D.centre=[18.52, 3.88, 0]"]),
-    "D-0.05": ("hole D lower by 0.05 mm", ["feature.D.centre=[18.52, 3.93, 0]"]),
-    "D+0.05": ("hole D higher by 0.05 mm", ["feature.D.centre=[18.52, 4.03, 0]"]),
-    "D+0.10": ("hole D higher by 0.10 mm", ["feature.D.centre=[18.52, 4.08, 0]"]),
-    "slow": ("pins part at 2.5 m/s", speed(1.25, 3.2)),
-    "fast": ("pins part at 10 m/s", speed(5, 0.9)),
-    "flip": ("FLIP on the particles, double precision",
-             ['numerics.transfer="flip"', 'numerics.precision="f64"']),
-    "double": ("double precision", ['numerics.precision="f64"']),
+    "mixed": Variant("preview", PAPER, "nothing: mixed mode, plain points"),
+    "opening": Variant("preview", PAPER, "mode I only", mode("opening")),
+    "shear": Variant("preview", PAPER, "mode II only", mode("shear")),
+    "s3000": Variant("preview", PAPER, "s_max = 3000 MPa", [f'{DECOHESION}.s_max="3000 MPa"']),
+    "mixed-averaged": Variant("preview", PAPER, "mixed mode, averaged dilatation", AVERAGED),
+    "opening-averaged": Variant("preview", PAPER, "mode I only, averaged dilatation", AVERAGED + mode("opening")),
+    "shear-averaged": Variant("preview", PAPER, "mode II only, averaged dilatation", AVERAGED + mode("shear")),
+    "shifted-x": Variant("preview", PAPER, "lattice moved by a quarter cell in x", ["grid.origin=[0.125, 0, 0]"]),
+    "shifted-y": Variant("preview", PAPER, "lattice moved by a quarter cell in y", ["grid.origin=[0, 0.125, 0]"]),
+    "D-0.10": Variant("preview", PAPER, "hole D lower by 0.10 mm", [D_AT.format(3.88)]),
+    "D-0.05": Variant("preview", PAPER, "hole D lower by 0.05 mm", [D_AT.format(3.93)]),
+    "D+0.05": Variant("preview", PAPER, "hole D higher by 0.05 mm", [D_AT.format(4.03)]),
+    "D+0.10": Variant("preview", PAPER, "hole D higher by 0.10 mm", [D_AT.format(4.08)]),
+    "slow": Variant("preview", PAPER, "pins part at 2.5 m/s", speed(1.25, 3.2)),
+    "fast": Variant("preview", PAPER, "pins part at 10 m/s", speed(5, 0.9)),
+    "double": Variant("preview", PAPER, "double precision", ['numerics.precision="f64"']),
+    "updated": Variant("preview", PAPER, "updated Lagrangian, FLIP", ['numerics.formulation="updated"', 'numerics.precision="f64"']),
+    "full-thickness": Variant("preview", PAPER, "full thickness, no symmetry plane",
+                              ["body.0.shape.difference.from.box.lower=[0, -15.875, -1.575]", "symmetry=[]"]),
+    "objective": Variant("objective", OBJECTIVE, "nothing: energies, D lower by 0.05 mm"),
+    "objective-shifted-x": Variant("objective", OBJECTIVE, "lattice moved by a quarter cell in x", ["grid.origin=[0.125, 0, 0]"]),
+    "objective-shifted-y": Variant("objective", OBJECTIVE, "lattice moved by a quarter cell in y", ["grid.origin=[0, 0.125, 0]"]),
+    "objective-D-0.10": Variant("objective", OBJECTIVE, "hole D lower by 0.10 mm", [D_AT.format(3.88)]),
+    "objective-D": Variant("objective", OBJECTIVE, "hole D where it was traced", [D_AT.format(3.98)]),
+    "objective-D+0.05": Variant("objective", OBJECTIVE, "hole D higher by 0.05 mm", [D_AT.format(4.03)]),
+    "objective-slow": Variant("objective", OBJECTIVE, "pins part at 2.5 m/s", speed(1.25, 3.2)),
+    "objective-fast": Variant("objective", OBJECTIVE, "pins part at 10 m/s", speed(5, 0.9)),
+    "fine-mixed": Variant("fine", FINE, "paper, mixed mode, three levels"),
+    "fine-opening": Variant("fine", FINE, "paper, mode I only, three levels", mode("opening")),
+    "fine-shear": Variant("fine", FINE, "paper, mode II only, three levels", mode("shear")),
+    "challenge": Variant("fine", "snl/challenge.toml", "paper, mixed mode, two levels as in the paper"),
+    "objective-challenge": Variant("fine", "snl/objective/challenge.toml", "objective, three levels"),
+    "whole-plain": Variant("field", "snl/no-fracture.toml", "plain points", ['material.steel.dilatation="point"',
+                           'output.particles.fields=["stress", "damage", "eq_plastic_strain"]']),
+    "whole-averaged": Variant("field", "snl/no-fracture.toml", "averaged dilatation",
+                              ['output.particles.fields=["stress", "damage", "eq_plastic_strain"]']),
+    **{f"coupon-{v:g}": Variant("coupon", COUPON, f"{2 * v:g} m/s", grip_speed(v)) for v in (0.5, 2.5, 5)},
 }
+EVENT_GROUPS = ["preview", "objective", "fine"]
 MEASURES = ["peak_force_N", "c1_force_N", "c1_cod_mm", "c2_force_N", "c2_cod_mm", "c3_force_N", "c3_cod_mm"]
 
 
@@ -65,9 +101,10 @@ def done(directory):
     return record.exists() and json.loads(record.read_text())["status"] == "done"
 
 
-def run(program, case, name, directory):
-    changes = [part for override in VARIANTS[name][1] for part in ("--set", override)]
-    command = [program, "run", str(case), "-o", str(directory), "--force", *changes]
+def run(program, name, directory):
+    variant = VARIANTS[name]
+    changes = [part for override in variant.overrides for part in ("--set", override)]
+    command = [program, "run", str(ROOT / "cases" / variant.case), "-o", str(directory), "--force", *changes]
     log = directory.parent / f"{directory.name}.log"
     with open(log, "w") as output:
         code = subprocess.run(command, stdout=output, stderr=subprocess.STDOUT).returncode
@@ -90,7 +127,7 @@ def force_near(directory, opening):
 def draw_pattern(axes, directory, time=None, title=None):
     at_time, points, data, side = read_frame(directory, time)
     damage, failed, strain = data["damage"], data["failure_mode"], data["eq_plastic_strain"]
-    middle = points[:, 2] < points[:, 2].min() + side.max()
+    middle = points[:, 2] < points[damage < 1, 2].min() + side.max()
     x, y = points[middle, 0], points[middle, 1]
     broken = damage[middle] > 0
     axes.scatter(x[~broken], y[~broken], c=strain[middle][~broken], s=1.2, cmap="Greys", vmin=-0.1, vmax=0.6, linewidths=0)
@@ -108,7 +145,7 @@ def draw_curves(path, results, names, reference):
     figure, axes = plt.subplots(figsize=(7, 4.2))
     for name in names:
         if name in results:
-            axes.plot(*[v / s for v, s in zip(smooth(*read_curve(results[name])), (1, 1000))], linewidth=1.2, label=VARIANTS[name][0])
+            axes.plot(*[v / s for v, s in zip(smooth(*read_curve(results[name])), (1, 1000))], linewidth=1.2, label=VARIANTS[name].change)
     for marker, (who, numbers) in zip("os", reference.items()):
         axes.plot([numbers[f"c{k}_cod_mm"] for k in (1, 2, 3)], [numbers[f"c{k}_force_N"] / 1000 for k in (1, 2, 3)], marker,
                   color="0.2", markersize=5, markerfacecolor="none" if marker == "s" else "0.2", label=f"{who}: crack initiations")
@@ -126,7 +163,7 @@ def draw_patterns(path, results, names):
     names = [name for name in names if name in results]
     figure, axes = plt.subplots(1, len(names), figsize=(3.4 * len(names), 3.2), squeeze=False)
     for one, name in zip(axes[0], names):
-        draw_pattern(one, results[name], title=VARIANTS[name][0])
+        draw_pattern(one, results[name], title=VARIANTS[name].change)
     figure.tight_layout()
     figure.savefig(path, dpi=100)
     plt.close(figure)
@@ -151,10 +188,11 @@ def number(value, digits=0):
 def row_of(name, directory):
     record = json.loads((directory / "run.json").read_text())
     measures = record["measures"]
-    return {"variant": name, "change": VARIANTS[name][0], **{key: measures.get(key) for key in MEASURES},
+    return {"group": VARIANTS[name].group, "variant": name, "case": VARIANTS[name].case, "change": VARIANTS[name].change,
+            **{key: measures.get(key) for key in MEASURES},
             "crack_path": measures.get("crack_path") or "", "force_at_3mm_N": force_near(directory, 3),
             "force_at_6mm_N": force_near(directory, 6), "energy_residual": measures.get("energy_residual"),
-            "particles": sum(record["particles"]["start"])}
+            "particles": sum(record["particles"]["start"]), "steps": record["steps"], "wall_s": round(record["wall_s"])}
 
 
 def table(rows):
@@ -168,24 +206,107 @@ def table(rows):
     return "\n".join(lines)
 
 
-def write_page(case, results, reference):
-    rows = [row_of(name, results[name]) for name in VARIANTS if name in results]
-    stem = case.stem
-    with open(ROOT / f"docs/snl-{stem}.csv", "w", newline="") as file:
+def draw_coupon(path, results):
+    figure, axes = plt.subplots(figsize=(6, 3.8))
+    for name, variant in VARIANTS.items():
+        if variant.group != "coupon" or name not in results:
+            continue
+        with open(results[name] / "history.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        strain = np.array([float(row["cod_mm"]) for row in rows]) / 12.5
+        axes.plot(100 * strain, np.array([float(row["force_upper_N"]) for row in rows]) / (6 * 3.15), linewidth=1.0,
+                  label=f"ends part at {variant.change}")
+    axes.axhline(1100, color="0.6", linewidth=0.8)
+    axes.set_xlabel("engineering strain over 25 mm [%]")
+    axes.set_ylabel("engineering stress [MPa]")
+    axes.set_xlim(0, 12)
+    axes.set_ylim(0, 1400)
+    axes.legend(frameon=False, fontsize=8)
+    figure.tight_layout()
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
+def largest_principal(stress):
+    """Of ParaView's order xx yy zz xy yz zx."""
+    xx, yy, zz, xy, yz, zx = stress.T
+    return np.linalg.eigvalsh(np.stack([np.stack([xx, xy, zx], -1), np.stack([xy, yy, yz], -1), np.stack([zx, yz, zz], -1)], -2))[:, 2]
+
+
+def draw_stress(path, results):
+    """Largest principal stress without fracture, last frame, one layer of points at the middle plane."""
+    names = [name for name, variant in VARIANTS.items() if variant.group == "field" and name in results]
+    if not names:
+        return
+    figure, axes = plt.subplots(1, len(names), figsize=(5 * len(names), 4), squeeze=False)
+    for one, name in zip(axes[0], names):
+        time, points, data, side = read_frame(results[name])
+        middle = points[:, 2] < points[:, 2].min() + side.max() / 2
+        stress = largest_principal(data["stress"][middle])
+        shown = one.scatter(points[middle, 0], points[middle, 1], c=stress, s=5, cmap="viridis", vmin=0, vmax=4900, linewidths=0)
+        one.set_xlim(15, 26)
+        one.set_ylim(-5, 8)
+        one.set_aspect("equal")
+        one.set_axis_off()
+        one.set_title(f"{VARIANTS[name].change}: at most {stress.max():.0f} MPa", fontsize=9)
+        figure.colorbar(shown, ax=one, shrink=0.7, label="largest principal stress [MPa]")
+    figure.tight_layout()
+    figure.savefig(path, dpi=95)
+    plt.close(figure)
+
+
+def table_one(results, reference):
+    """Table 1 of the paper with the runs at its resolution beside it."""
+    columns = [("experiment", reference["experiment"]), ("Yang et al.", reference["simulation"])]
+    columns += [(VARIANTS[name].change, json.loads((results[name] / "run.json").read_text())["measures"])
+                for name in ("challenge", "fine-mixed", "objective-challenge", "objective") if name in results]
+    experiment = reference["experiment"]
+    lines = ["| measure | " + " | ".join(title for title, _ in columns) + " |", "|---" * (len(columns) + 1) + "|"]
+    for key, text, digits in [("peak_force_N", "maximum force, N", 0)] + [
+            (f"c{k}_{what}", f"C{k}, {unit}", digits) for k in (1, 2, 3)
+            for what, unit, digits in (("force_N", "N", 0), ("cod_mm", "COD mm", 2))]:
+        cells = []
+        for title, numbers in columns:
+            value = numbers.get(key)
+            off = "" if value is None or title == "experiment" else f" ({100 * (value / experiment[key] - 1):+.0f} %)"
+            cells.append(number(value, digits) + off)
+        lines.append(f"| {text} | " + " | ".join(cells) + " |")
+    paths = ["A-D-C-E", "A-D-C-E"] + [numbers.get("crack_path") or "–" for _, numbers in columns[2:]]
+    lines.append("| cut through | " + " | ".join(paths) + " |")
+    return "\n".join(lines)
+
+
+def replaced(text, mark, table):
+    """`text` with what stands between <!-- mark --> and <!-- end --> exchanged."""
+    head, rest = text.split(f"<!-- {mark} -->", 1)
+    return f"{head}<!-- {mark} -->\n\n{table}\n\n<!-- end -->{rest.split('<!-- end -->', 1)[1]}"
+
+
+def write_page(results, reference):
+    rows = [row_of(name, results[name]) for name, variant in VARIANTS.items()
+            if name in results and variant.group in EVENT_GROUPS]
+    with open(ROOT / "docs/snl.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, rows[0].keys())
         writer.writeheader()
         writer.writerows(rows)
     images = ROOT / "docs/img"
-    draw_curves(images / "snl-modes.png", results, ["opening", "shear", "mixed"], reference)
-    draw_curves(images / "snl-plain.png", results, ["opening-plain", "shear-plain", "mixed-plain", "s3000-plain"], reference)
-    draw_patterns(images / "snl-patterns.png", results, ["opening", "shear", "mixed"])
-    draw_patterns(images / "snl-patterns-plain.png", results, ["opening-plain", "shear-plain", "mixed-plain"])
-    if "mixed" in results:
-        draw_sequence(images / "snl-sequence.png", results["mixed"], [1.0, 2.5, 4.0, 6.0])
-    text = (ROOT / "docs/snl.md").read_text() if (ROOT / "docs/snl.md").exists() else "<!-- table -->\n<!-- end -->\n"
-    head, rest = text.split("<!-- table -->", 1)
-    tail = rest.split("<!-- end -->", 1)[1]
-    (ROOT / "docs/snl.md").write_text(f"{head}<!-- table -->\n\n{table(rows)}\n\n<!-- end -->{tail}")
+    fine = "fine-" if "fine-opening" in results else ""
+    draw_curves(images / "snl-modes.png", results, [fine + name for name in ("opening", "shear", "mixed")], reference)
+    draw_patterns(images / "snl-patterns.png", results, [fine + name for name in ("opening", "shear", "mixed")])
+    draw_curves(images / "snl-averaged.png", results, ["opening-averaged", "shear-averaged", "mixed-averaged"], reference)
+    draw_curves(images / "snl-objective.png", results, ["objective-challenge", "objective", "objective-shifted-x", "objective-D"], reference)
+    draw_patterns(images / "snl-patterns-objective.png", results, ["objective-challenge", "objective", "objective-D"])
+    for name in ("objective-challenge", "objective"):
+        if name in results:
+            draw_sequence(images / "snl-sequence.png", results[name], [1.0, 2.5, 4.0, 6.0])
+            break
+    draw_coupon(images / "snl-coupon.png", results)
+    draw_stress(images / "snl-stress.png", results)
+    page = ROOT / "docs/snl.md"
+    text = replaced(page.read_text(), "table 1", table_one(results, reference))
+    for group in EVENT_GROUPS:
+        text = replaced(text, group, table([row for row in rows if row["group"] == group]))
+    page.write_text(text)
 
 
 def read_reference():
@@ -202,7 +323,7 @@ def read_reference():
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "results/snl-study")
-    parser.add_argument("--case", type=pathlib.Path, default=ROOT / "cases/snl/preview.toml")
+    parser.add_argument("--group", choices=sorted({variant.group for variant in VARIANTS.values()}))
     parser.add_argument("--cleave", default=str(ROOT / "cleave"))
     parser.add_argument("--page-only", action="store_true", help="run nothing")
     parser.add_argument("names", nargs="*")
@@ -211,15 +332,14 @@ def main():
     if unknown:
         sys.exit(f"unknown variants {sorted(unknown)}; there are {list(VARIANTS)}")
     options.output.mkdir(parents=True, exist_ok=True)
-    place = {name: options.output / f"{options.case.stem}-{name}" for name in VARIANTS}
     if not options.page_only:
-        for name in options.names or VARIANTS:
-            if not done(place[name]):
-                run(options.cleave, options.case, name, place[name])
-    results = {name: directory for name, directory in place.items() if done(directory)}
+        for name in options.names or [name for name, variant in VARIANTS.items() if options.group in (None, variant.group)]:
+            if not done(options.output / name):
+                run(options.cleave, name, options.output / name)
+    results = {name: options.output / name for name in VARIANTS if done(options.output / name)}
     if not results:
         sys.exit("no finished run")
-    write_page(options.case, results, read_reference())
+    write_page(results, read_reference())
 
 
 if __name__ == "__main__":

@@ -48,12 +48,15 @@ std::vector<OccupiedCell> cells_near(const grid::Levels& levels, const Vec3& poi
 Ball ball_about(const PassOptions& options, const grid::Levels& levels, const particles::Particles& particles,
                 const OccupiedCell& cell, std::uint8_t material, Real radius);
 
-/// Mean of `stress_at(particle)` over the ball [MPa].
-template <class StressAt>
-core::Sym<Real> mean_stress(const Ball& ball, const StressAt& stress_at)
+/// Mean of `stress_at(particle)` over the particles of the ball for which `counts(particle)` [MPa]; zero if none does.
+template <class StressAt, class Counts>
+core::Sym<Real> mean_stress(const Ball& ball, const StressAt& stress_at, const Counts& counts)
 {
     core::Sym<Real> mean{};
+    Real total = 0;
     for (std::size_t n = 0; n < ball.particle.size(); ++n) {
+        if (!counts(ball.particle[n])) continue;
+        total += ball.weight[n];
         const core::Sym<Real> seen = ball.weight[n] * stress_at(ball.particle[n]);
         const unsigned turned = ball.turned[n];
         const auto sign = [&](unsigned a, unsigned b) { return (turned >> a & 1u) == (turned >> b & 1u) ? 1.0 : -1.0; };
@@ -62,6 +65,6 @@ core::Sym<Real> mean_stress(const Ball& ball, const StressAt& stress_at)
         mean[4] += sign(1, 2) * seen[4];
         mean[5] += sign(2, 0) * seen[5];
     }
-    return mean;
+    return total > 0 ? (1 / total) * mean : mean;
 }
 } // namespace transfer

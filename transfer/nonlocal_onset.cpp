@@ -129,12 +129,19 @@ void complete_table(const View& view, const particles::Particles& particles, con
     for (std::size_t n = 0; n < missing.size(); ++n) table.ball.emplace(key_of(missing[n]), std::move(balls[n]));
 }
 
+bool separated(const particles::Particles& particles, std::uint32_t p)
+{
+    return particles.crack[p] >= 0 && particles.cracks[static_cast<std::size_t>(particles.crack[p])].damage >= 1;
+}
+
 void average(const View& view, const particles::Particles& particles, Candidate& candidate)
 {
     const auto found = view.table.ball.find(key_of(candidate));
     const Ball fresh = found == view.table.ball.end() ? ball_of(view, particles, candidate) : Ball{};
-    candidate.mean = mean_stress(found == view.table.ball.end() ? fresh : found->second,
-                                 [&](std::uint32_t p) { return stress_of(view, particles, p); });
+    candidate.mean = mean_stress(
+        found == view.table.ball.end() ? fresh : found->second,
+        [&](std::uint32_t p) { return stress_of(view, particles, p); },
+        [&](std::uint32_t p) { return !separated(particles, p); });
     const material::Decohesion& law = *nonlocal_law(view.laws, candidate.material);
     if (!material::may_start(candidate.mean, law.s_max, law.tau_max)) return;
     const auto [s1, s2, s3] = material::principal(candidate.mean).value;
@@ -241,7 +248,8 @@ std::vector<Onset> cracks_of(const View& view, const particles::Particles& parti
     const core::Crack& fresh = onset.front().crack; // all have one plane: the tested stress and the bias are the cell's
     const Vec3 normal = at_rest(motion.deformation, fresh.normal);
     for (const Neighbour& other : neighbours)
-        if (excluded(other.offset, at_rest(motion.deformation, other.crack->normal), normal,
+        if (other.crack->damage < 1 &&
+            excluded(other.offset, at_rest(motion.deformation, other.crack->normal), normal,
                      std::max(fresh.effective_length, other.crack->effective_length), law.crack_exclusion))
             return {};
     return onset;

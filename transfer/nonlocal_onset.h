@@ -5,9 +5,10 @@
 /// change with the cells converges. A cell starts as a whole, when
 ///   1. one of its own intact particles is near a strength (material::may_start), and
 ///   2. the mean over the ball about its centre meets the criterion.
-/// The cells that fulfil both start in order of how far they exceed it, and each start forbids those beside it: no
-/// plane closer than `crack_exclusion` to a parallel one (`excluded`). The mean field is smooth, so without this rule a
-/// band as wide as the ball would separate instead of one layer of cells.
+/// Separated particles do not count in the mean. The cells that fulfil both start in order of how far they exceed it,
+/// and each forbids those beside it while it softens: no plane closer than `crack_exclusion` to a parallel one
+/// (`excluded`). The mean field is smooth, so without this rule a band as wide as the ball would separate instead of
+/// one layer of cells.
 #pragma once
 
 #include "transfer/ball.h"

@@ -21,13 +21,20 @@ void put_stress(const Value& value, Scene& scene)
             scene.particles.stress[n][p] = value(n, support::vector_of(scene.particles.rest_position, p));
 }
 
-core::Sym<Real> mean_of(const Scene& scene, const transfer::Ball& ball)
+template <class Counts>
+core::Sym<Real> mean_of(const Scene& scene, const transfer::Ball& ball, const Counts& counts)
 {
-    return transfer::mean_stress(ball, [&](std::uint32_t p) {
+    const auto stress_at = [&](std::uint32_t p) {
         core::Sym<Real> s{};
         for (std::size_t n = 0; n < 6; ++n) s.s[n] = scene.particles.stress[n][p];
         return s;
-    });
+    };
+    return transfer::mean_stress(ball, stress_at, counts);
+}
+
+core::Sym<Real> mean_of(const Scene& scene, const transfer::Ball& ball)
+{
+    return mean_of(scene, ball, [](std::uint32_t) { return true; });
 }
 
 /// Cells of 0.5 mm about the origin of the lattice: those of a block of side 6 that `keep` takes.
@@ -70,6 +77,18 @@ TEST(Nonlocal, mean_is_that_of_the_weight)
     for (std::size_t n = 0; n < 6; ++n) EXPECT_NEAR(mean_of(scene, ball).s[n], static_cast<Real>(n + 1), 1e-12);
     put_stress([&](std::size_t, const Vec3& x) { return (x - centre).squaredNorm(); }, scene);
     EXPECT_NEAR(mean_of(scene, ball).s[0] / (1.1 * 1.1 / 3), 1, 0.01);
+}
+
+TEST(Nonlocal, what_does_not_count_is_left_out_of_the_mean_and_of_its_weight)
+{
+    Scene scene = block({}, everything);
+    const Real centre = scene.levels.origin[0];
+    put_stress([&](std::size_t, const Vec3& x) { return x[0] > centre ? 3 : 100; }, scene);
+    const transfer::Ball ball = ball_at(scene, 0, {0, 0, 0}, 1.1);
+    const auto right = [&](std::uint32_t p) { return scene.particles.rest_position[0][p] > centre; };
+    EXPECT_NEAR(mean_of(scene, ball, right).s[0], 3, 1e-12);
+    EXPECT_GT(mean_of(scene, ball).s[0], 4);
+    EXPECT_EQ(mean_of(scene, ball, [](std::uint32_t) { return false; }).s[0], 0);
 }
 
 TEST(Nonlocal, levels_do_not_matter)
