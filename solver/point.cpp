@@ -22,7 +22,8 @@ core::Mat<Real> velocity_gradient(const PointStep& step)
 void advance_intact(const PointLaw& law, const PointStep& step, PointState& state)
 {
     const core::Mat<Real> rotation = material::incremental_rotation(step.rotation);
-    state.stress = material::elastic_trial(core::rotated(rotation, state.stress), step.strain, law.lame);
+    state.stress = material::elastic_trial(core::rotated(rotation, state.stress),
+                                           material::at_end_of_step(step.strain, step.rotation), law.lame);
     if (law.plastic) {
         const auto returned = material::radial_return(state.stress, state.eq_plastic_strain, *law.plastic);
         if (returned.eq_plastic_strain > state.eq_plastic_strain)

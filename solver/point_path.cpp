@@ -54,7 +54,8 @@ PointStep elastic_guess(const PointLaw& law, const PointState& before, const Tar
 {
     PointStep step = target.step;
     const core::Sym<Real> turned = core::rotated(material::incremental_rotation(step.rotation), before.stress);
-    const core::Sym<Real> trial = material::elastic_trial(turned, step.strain, law.lame);
+    const core::Sym<Real> trial =
+        material::elastic_trial(turned, material::at_end_of_step(step.strain, step.rotation), law.lame);
     const auto count = static_cast<Eigen::Index>(target.free.size());
     Eigen::VectorXd missing(count);
     Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(count, count);

@@ -191,9 +191,9 @@ template <bool Plain>
     const LawLanes law = law_lanes<Plain>(laws, particles, begin, count);
     const core::Sym<Lanes> strain = strain_increment(k, mean_dilatation);
     const core::Vec<Lanes> spin = material::spin_increment(k.gradient_increment);
-    const core::Sym<Lanes> trial =
-        material::elastic_trial(core::rotated(material::incremental_rotation(spin), old), strain,
-                                material::LameConstants<Lanes>{law.lame, law.shear + law.shear});
+    const core::Sym<Lanes> trial = material::elastic_trial(
+        core::rotated(material::incremental_rotation(spin), old), material::at_end_of_step(strain, spin),
+        material::LameConstants<Lanes>{law.lame, law.shear + law.shear});
     const material::PlasticStep<Lanes> step = material::radial_return(
         trial, old_strain,
         material::PlasticConstants<Lanes>{law.yield, law.hardening, Lanes(Real(3)) * law.shear, law.per_overstress});

@@ -76,8 +76,9 @@ template <class T>
     for (int a = 0; a < 3; ++a) strain[a] += shift;
     core::Sym<V> old;
     for (std::size_t n = 0; n < 6; ++n) old.s[n] = load_slot<T>(state.stress[n], s);
-    const core::Mat<V> rotation = material::incremental_rotation(material::spin_increment(g));
-    const core::Sym<V> trial = material::elastic_trial(core::rotated(rotation, old), strain,
+    const core::Vec<V> spin = material::spin_increment(g);
+    const core::Sym<V> trial = material::elastic_trial(core::rotated(material::incremental_rotation(spin), old),
+                                                       material::at_end_of_step(strain, spin),
                                                        material::LameConstants<V>{law.lame, law.shear + law.shear});
     const material::PlasticStep<V> step = material::radial_return(
         trial, load_slot<T>(state.eq_plastic_strain, s),

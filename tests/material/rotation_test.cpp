@@ -88,6 +88,36 @@ TEST(Rotation, gives_the_jaumann_stress_of_simple_shear)
     }
 }
 
+/// A body that stretches at a steady rate while it turns by a radian: stress in its own axes is 2 mu e + lambda tr e.
+/// With the strain of mid-step added in the axes of the end it is of second order, else of first.
+TEST(Rotation, stress_of_a_turning_stretch_is_of_second_order)
+{
+    const auto lame = lame_constants<double>(steel());
+    const Sym own{{3e-4, -1e-4, 0, 2e-4, 1e-4, -2e-4}};
+    const core::Vec<double> axis{{0.48, -0.6, 0.64}};
+    const auto about = [&](double angle) { // exact turn
+        const double a = 2 * std::tan(angle / 2);
+        return incremental_rotation<double>({{a * axis[0], a * axis[1], a * axis[2]}});
+    };
+    double last = 0;
+    for (const int steps : {10, 20, 40}) {
+        Sym stress{};
+        const double a = 2 * std::tan(0.5 / steps);
+        const core::Vec<double> spin{{a * axis[0], a * axis[1], a * axis[2]}};
+        for (int i = 0; i < steps; ++i) {
+            const Sym middle = core::rotated(about((i + 0.5) / steps), (1.0 / steps) * own);
+            stress =
+                elastic_trial(core::rotated(incremental_rotation(spin), stress), at_end_of_step(middle, spin), lame);
+        }
+        const Sym exact = core::rotated(about(1), elastic_trial(Sym{}, own, lame));
+        double error = 0;
+        for (int n = 0; n < 6; ++n) error = std::max(error, std::abs(stress[n] - exact[n]) / 100);
+        EXPECT_LT(error, 0.2 / (steps * steps));
+        if (last > 0) EXPECT_NEAR(last / error, 4, 0.1);
+        last = error;
+    }
+}
+
 TEST(Rotation, lanes_agree_with_scalar)
 {
     using Lanes = core::Pack<double, core::native_lanes<double>>;

@@ -212,6 +212,8 @@ void DenseMpm::step(Real dt)
             strain += (sum / cell_volume - increment[i].trace()) / 3 * Matrix::Identity();
         }
         const Matrix rotation = hughes_winget(increment[i]);
+        const Matrix spin = (increment[i] - increment[i].transpose()) / 2;
+        strain = (strain + (spin * strain - strain * spin) / 2).eval(); // from mid-step to its end
         p.stress = rotation * p.stress * rotation.transpose() + m.elastic.lame() * strain.trace() * Matrix::Identity() +
                    2 * m.elastic.shear_modulus() * strain;
         plastic_work += volume[i] * return_to_yield(m, p);

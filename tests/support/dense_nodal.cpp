@@ -163,8 +163,9 @@ Real trace(const Mat& m)
 /// The plastic law; the strain has its mean dilatation already.
 void yield(const transfer::LawConstants& law, const Strain& s, const Sym& strain, NodalPoint& p, DenseNodal& mpm)
 {
-    const Mat rotation = material::incremental_rotation(material::spin_increment(s.increment));
-    const Sym trial = material::elastic_trial(core::rotated(rotation, p.stress), strain,
+    const auto spin = material::spin_increment(s.increment);
+    const Sym trial = material::elastic_trial(core::rotated(material::incremental_rotation(spin), p.stress),
+                                              material::at_end_of_step(strain, spin),
                                               material::LameConstants<Real>{law.lame, 2 * law.shear});
     const material::PlasticStep<Real> step = material::radial_return(
         trial, p.eq_plastic_strain,
