@@ -179,3 +179,23 @@ TEST(Scenes, c14_two_levels_reach_the_limit_load_of_fine_cells)
     const support::Results two = support::results_of("verification/c14-notched-strip/case.toml", {});
     EXPECT_NEAR(two.at("limit") / 2.9685, 1.038, 0.003); // fine cells everywhere: 1.0372
 }
+
+/// Freund's stress intensity; refined at the tip only it is that of fine cells.
+TEST(Scenes, c20_crack_under_step_tension_has_the_stress_intensity_of_freund)
+{
+    constexpr std::array exact{509.749747, 720.895006, 882.912462};
+    const auto errors = [&](const char* file, const char* cell) {
+        const support::Results results = support::results_of(file, {cell});
+        return std::array{1 - results.at("K_15") / exact[0], 1 - results.at("K_20") / exact[1],
+                          1 - results.at("K_25") / exact[2]};
+    };
+    const auto coarse = errors("verification/c20-step-crack/case.toml", "grid.cell=0.2"),
+               fine = errors("verification/c20-step-crack/case.toml", "grid.cell=0.1"),
+               two = errors("verification/c20-step-crack/two-level.toml", "grid.cell=0.2");
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_GT(fine[i], 0);
+        EXPECT_LT(fine[i], 0.05);
+        EXPECT_GT(coarse[i] / fine[i], 2.8);
+        EXPECT_NEAR(two[i], fine[i], 0.01);
+    }
+}
