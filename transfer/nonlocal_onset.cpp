@@ -129,11 +129,6 @@ void complete_table(const View& view, const particles::Particles& particles, con
     for (std::size_t n = 0; n < missing.size(); ++n) table.ball.emplace(key_of(missing[n]), std::move(balls[n]));
 }
 
-bool separated(const particles::Particles& particles, std::uint32_t p)
-{
-    return particles.crack[p] >= 0 && particles.cracks[static_cast<std::size_t>(particles.crack[p])].damage >= 1;
-}
-
 void average(const View& view, const particles::Particles& particles, Candidate& candidate)
 {
     const auto found = view.table.ball.find(key_of(candidate));
@@ -141,7 +136,7 @@ void average(const View& view, const particles::Particles& particles, Candidate&
     candidate.mean = mean_stress(
         found == view.table.ball.end() ? fresh : found->second,
         [&](std::uint32_t p) { return stress_of(view, particles, p); },
-        [&](std::uint32_t p) { return !separated(particles, p); });
+        [&](std::uint32_t p) { return particles.crack[p] < 0; });
     const material::Decohesion& law = *nonlocal_law(view.laws, candidate.material);
     if (!material::may_start(candidate.mean, law.s_max, law.tau_max)) return;
     const auto [s1, s2, s3] = material::principal(candidate.mean).value;
@@ -266,7 +261,7 @@ int nonlocal_interval(const LawTable& laws, Real dt)
 {
     Real fastest = 0;
     for (const LawConstants& c : laws.constants) fastest = std::max(fastest, c.wave_speed);
-    return std::max(1, static_cast<int>(std::min(laws.nonlocal_radius / (2 * fastest * dt), Real(1000))));
+    return std::max(1, static_cast<int>(std::min(laws.nonlocal_radius / (fastest * dt), Real(1000))));
 }
 
 bool excluded(const Vec3& offset, const Vec3& normal, const Vec3& fresh, Real band, Real reach)

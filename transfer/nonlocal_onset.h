@@ -5,10 +5,10 @@
 /// change with the cells converges. A cell starts as a whole, when
 ///   1. one of its own intact particles is near a strength (material::may_start), and
 ///   2. the mean over the ball about its centre meets the criterion.
-/// Separated particles do not count in the mean. The cells that fulfil both start in order of how far they exceed it,
-/// and each forbids those beside it while it softens: no plane closer than `crack_exclusion` to a parallel one
-/// (`excluded`). The mean field is smooth, so without this rule a band as wide as the ball would separate instead of
-/// one layer of cells.
+/// Only intact particles count in the mean. The cells that fulfil both start in order of how far they exceed it, and
+/// each forbids those beside it while it softens: no plane closer than `crack_exclusion` to a parallel one (`excluded`).
+/// The mean field is smooth, so without this rule a band as wide as the ball would separate instead of one layer of
+/// cells.
 #pragma once
 
 #include "transfer/ball.h"
@@ -28,7 +28,7 @@ struct NonlocalTable
     std::vector<std::uint32_t> place;             // [p] nodal scheme: (block * slots + slot) * lanes + lane
 };
 
-/// Steps between two tests: a wave cannot cross half the ball in less, max(1, floor(R / (2 c_d dt))).
+/// Steps between two tests: a wave cannot cross more than the radius in less, max(1, floor(R / (c_d dt))).
 int nonlocal_interval(const LawTable& laws, Real dt);
 
 /// Test all cells; cracks that start are recorded, their stress is not changed in this step.
