@@ -88,7 +88,7 @@ double box_flops(const BenchCase& scheme)
                twice = scheme.stress_update != solver::StressUpdate::usl;
     const double slopes = walk(4, 4, 6), moments = walk(4, 6, 8) + 50, values = walk(2, 2, 2);
     const double gather = affine && !twice ? moments : slopes, give = affine ? walk(4, 4, 5) : walk(4, 4, 3);
-    double flops = gather + give + 2 * 90 + 350;
+    double flops = gather + give + 2 * 90 + 383;
     if (twice) flops += (affine ? moments + give : values + walk(2, 1, 1)) + 90;
     return flops;
 }
@@ -130,8 +130,8 @@ double roof(const BenchResult& result, const transfer::MachineLimits& limits)
 
 double counted_flops(const BenchCase& scheme)
 {
-    if (scheme.transfer == solver::Transfer::nodal) return 500;
-    double flops = scheme.formulation == solver::Formulation::total ? 880 : 700;
+    if (scheme.transfer == solver::Transfer::nodal) return 533;
+    double flops = scheme.formulation == solver::Formulation::total ? 913 : 733;
     if (scheme.stress_update == solver::StressUpdate::musl) flops += 270;
     if (scheme.transfer == solver::Transfer::apic) flops += 130;
     if (scheme.basis == solver::Basis::gimp) flops = box_flops(scheme);

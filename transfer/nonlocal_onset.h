@@ -6,9 +6,9 @@
 ///   1. one of its own intact particles is near a strength (material::may_start), and
 ///   2. the mean over the ball about its centre meets the criterion.
 /// Only intact particles count in the mean. The cells that fulfil both start in order of how far they exceed it, and
-/// each forbids those beside it while it softens: no plane closer than `crack_exclusion` to a parallel one (`excluded`).
-/// The mean field is smooth, so without this rule a band as wide as the ball would separate instead of one layer of
-/// cells.
+/// each forbids those beside it while it softens: no plane closer than `crack_exclusion` to a parallel one
+/// (`excluded`). The mean field is smooth, so without this rule a band as wide as the ball would separate instead of
+/// one layer of cells.
 #pragma once
 
 #include "transfer/ball.h"

@@ -113,7 +113,9 @@ TEST(Rotation, stress_of_a_turning_stretch_is_of_second_order)
         double error = 0;
         for (int n = 0; n < 6; ++n) error = std::max(error, std::abs(stress[n] - exact[n]) / 100);
         EXPECT_LT(error, 0.2 / (steps * steps));
-        if (last > 0) EXPECT_NEAR(last / error, 4, 0.1);
+        if (last > 0) {
+            EXPECT_NEAR(last / error, 4, 0.1);
+        }
         last = error;
     }
 }
