@@ -305,7 +305,8 @@ def write_page(results, reference):
     page = ROOT / "docs/snl.md"
     text = replaced(page.read_text(), "table 1", table_one(results, reference))
     for group in EVENT_GROUPS:
-        text = replaced(text, group, table([row for row in rows if row["group"] == group]))
+        if f"<!-- {group} -->" in text:
+            text = replaced(text, group, table([row for row in rows if row["group"] == group]))
     page.write_text(text)
 
 
