@@ -91,6 +91,18 @@ TEST(Nonlocal, what_does_not_count_is_left_out_of_the_mean_and_of_its_weight)
     EXPECT_EQ(mean_of(scene, ball, [](std::uint32_t) { return false; }).s[0], 0);
 }
 
+TEST(Nonlocal, is_tested_before_a_wave_crosses_more_than_the_radius)
+{
+    transfer::LawTable laws;
+    laws.constants.resize(2);
+    laws.constants[0].wave_speed = 1;
+    laws.constants[1].wave_speed = 2;
+    laws.nonlocal_radius = 1;
+    EXPECT_EQ(transfer::nonlocal_interval(laws, 0.049), 10);
+    EXPECT_EQ(transfer::nonlocal_interval(laws, 0.51), 1);
+    EXPECT_EQ(transfer::nonlocal_interval(laws, 10), 1);
+}
+
 TEST(Nonlocal, levels_do_not_matter)
 {
     for (const std::size_t topology : {1U, 2U, 3U}) {
