@@ -142,6 +142,8 @@ def draw_pattern(axes, directory, time=None, title=None):
 
 
 def draw_curves(path, results, names, reference):
+    if not any(name in results for name in names):
+        return
     figure, axes = plt.subplots(figsize=(7, 4.2))
     for name in names:
         if name in results:
@@ -161,6 +163,8 @@ def draw_curves(path, results, names, reference):
 
 def draw_patterns(path, results, names):
     names = [name for name in names if name in results]
+    if not names:
+        return
     figure, axes = plt.subplots(1, len(names), figsize=(3.4 * len(names), 3.2), squeeze=False)
     for one, name in zip(axes[0], names):
         draw_pattern(one, results[name], title=VARIANTS[name].change)
@@ -251,17 +255,18 @@ def draw_stress(path, results):
         one.set_title(f"{VARIANTS[name].change}: at most {stress.max():.0f} MPa", fontsize=9)
         figure.colorbar(shown, ax=one, shrink=0.7, label="largest principal stress [MPa]")
     figure.tight_layout()
-    figure.savefig(path, dpi=95)
+    figure.savefig(path, dpi=70)
     plt.close(figure)
 
 
 def table_one(results, reference):
     """Table 1 of the paper with the runs at its resolution beside it."""
     columns = [("experiment", reference["experiment"]), ("Yang et al.", reference["simulation"])]
-    columns += [(VARIANTS[name].change, json.loads((results[name] / "run.json").read_text())["measures"])
-                for name in ("challenge", "fine-mixed", "objective-challenge", "objective") if name in results]
+    columns += [(pathlib.Path(VARIANTS[name].case).with_suffix("").relative_to("snl"),
+                 json.loads((results[name] / "run.json").read_text())["measures"])
+                for name in ("challenge", "mixed", "objective-challenge", "objective") if name in results]
     experiment = reference["experiment"]
-    lines = ["| measure | " + " | ".join(title for title, _ in columns) + " |", "|---" * (len(columns) + 1) + "|"]
+    lines = ["| measure | " + " | ".join(str(title) for title, _ in columns) + " |", "|---" * (len(columns) + 1) + "|"]
     for key, text, digits in [("peak_force_N", "maximum force, N", 0)] + [
             (f"c{k}_{what}", f"C{k}, {unit}", digits) for k in (1, 2, 3)
             for what, unit, digits in (("force_N", "N", 0), ("cod_mm", "COD mm", 2))]:
@@ -294,7 +299,7 @@ def write_page(results, reference):
     draw_curves(images / "snl-modes.png", results, [fine + name for name in ("opening", "shear", "mixed")], reference)
     draw_patterns(images / "snl-patterns.png", results, [fine + name for name in ("opening", "shear", "mixed")])
     draw_curves(images / "snl-averaged.png", results, ["opening-averaged", "shear-averaged", "mixed-averaged"], reference)
-    draw_curves(images / "snl-objective.png", results, ["objective-challenge", "objective", "objective-shifted-x", "objective-D"], reference)
+    draw_curves(images / "snl-objective.png", results, ["objective-challenge", "objective", "objective-shifted-y", "objective-D"], reference)
     draw_patterns(images / "snl-patterns-objective.png", results, ["objective-challenge", "objective", "objective-D"])
     for name in ("objective-challenge", "objective"):
         if name in results:
