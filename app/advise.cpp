@@ -2,6 +2,7 @@
 
 #include "app/chart_summary.h"
 #include "app/forecast.h"
+#include "app/median.h"
 #include "core/error.h"
 #include "io/case.h"
 
@@ -84,10 +85,8 @@ Real step_cost(const Candidate& candidate)
         for (const ChartRow* row : group)
             if (usable(*row) && row->particle_steps > 0)
                 (row->cpu_s > 0.5 ? costs : short_ones).push_back(row->cpu_s / row->particle_steps);
-    std::vector<Real>& taken = costs.empty() ? short_ones : costs;
-    if (taken.empty()) return std::numeric_limits<Real>::infinity();
-    std::nth_element(taken.begin(), taken.begin() + static_cast<std::ptrdiff_t>(taken.size() / 2), taken.end());
-    return taken[taken.size() / 2];
+    const std::vector<Real>& taken = costs.empty() ? short_ones : costs;
+    return taken.empty() ? std::numeric_limits<Real>::infinity() : median(taken);
 }
 
 std::vector<std::string> method_overrides(const ChartRow& method, Real cell, const solver::Problem& problem)

@@ -1,5 +1,6 @@
 #include "app/bench_block.h"
 
+#include "app/median.h"
 #include "grid/walls.h"
 #include "solver/nodal.h"
 #include "solver/step.h"
@@ -97,14 +98,7 @@ double box_flops(const BenchCase& scheme)
 /// written and read for sums, each spread over 4096 particles.
 constexpr double box_skin_bytes = 3 * 602 * 64 / 4096.0;
 
-double median(std::vector<double> values)
-{
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-transfer::MachineLimits median(const std::vector<transfer::MachineLimits>& limits)
+transfer::MachineLimits median_of(const std::vector<transfer::MachineLimits>& limits)
 {
     std::vector<double> triad, fma;
     for (const transfer::MachineLimits& one : limits) {
@@ -188,7 +182,7 @@ BenchResult bench_block(const BenchCase& scheme, int cells, int steps, int threa
     }
     result.particle_steps_per_s = median(rates);
     result.roof_share = median(shares);
-    result.limits = median(limits);
+    result.limits = median_of(limits);
     return result;
 }
 } // namespace app

@@ -7,6 +7,7 @@
 #include "app/leave_one_out.h"
 #include "app/source_tree.h"
 #include "app/stop_request.h"
+#include "app/walltime_option.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/diagnostics.h"
@@ -192,11 +193,8 @@ void add_chart(CLI::App& program, Command& chosen)
     command->add_option("--scene", options->scenes, "only this scene; may be repeated")->allow_extra_args(false);
     command->add_option("--jobs", options->study.jobs, "runs at a time, one thread each (default: all threads)")
         ->check(CLI::PositiveNumber);
-    command
-        ->add_option_function<std::string>(
-            "--walltime", [options](const std::string& text) { options->study.walltime = parse_walltime(text); },
-            "stop with checkpoints and exit code 75 after this time; the same command goes on")
-        ->type_name("T");
+    add_walltime(*command, options->study.walltime,
+                 "stop with checkpoints and exit code 75 after this time; the same command goes on");
     command->add_flag("--again", options->study.again, "repeat finished runs, too");
     CLI::Option* advised =
         command->add_option("--advise", options->advise, "run nothing: settings for this case from what was measured");

@@ -8,6 +8,7 @@
 #include "app/run_files.h"
 #include "app/run_options.h"
 #include "app/stop_request.h"
+#include "app/walltime_option.h"
 #include "core/error.h"
 #include "io/grid_file.h"
 #include "io/particle_file.h"
@@ -190,11 +191,8 @@ void add_run(CLI::App& program, Command& chosen)
     command->add_flag("--resume", options->resume, "go on from the newest checkpoint in the result directory");
     command->add_flag("--force", options->force, "replace a run that the result directory holds");
     command->add_flag("--no-frames", options->no_frames, "write no particle, grid and volume files");
-    command
-        ->add_option_function<std::string>(
-            "--walltime", [options](const std::string& text) { options->walltime = parse_walltime(text); },
-            "stop with a checkpoint and exit code 75 after this time: 90 (s), 3:50:00, 45min")
-        ->type_name("T");
+    add_walltime(*command, options->walltime,
+                 "stop with a checkpoint and exit code 75 after this time: 90 (s), 3:50:00, 45min");
     command->callback([&chosen, options] { chosen = [options] { return run_case(*options); }; });
 }
 } // namespace app

@@ -3,6 +3,7 @@
 #include "app/exit_code.h"
 #include "app/stop_request.h"
 #include "app/sweep_table.h"
+#include "app/walltime_option.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 
@@ -100,11 +101,8 @@ void add_sweep(CLI::App& program, Command& chosen)
     command->add_option("-o,--output", options->directory, "directory (default: results/<name of the sweep>)");
     command->add_option("--jobs", options->jobs, "runs at a time (default: all threads over the threads of a run)")
         ->check(CLI::PositiveNumber);
-    command
-        ->add_option_function<std::string>(
-            "--walltime", [options](const std::string& text) { options->study.walltime = parse_walltime(text); },
-            "stop with checkpoints and exit code 75 after this time; the same command goes on")
-        ->type_name("T");
+    add_walltime(*command, options->study.walltime,
+                 "stop with checkpoints and exit code 75 after this time; the same command goes on");
     command->add_flag("--again", options->study.again, "repeat finished runs, too");
     command->add_option("--slurm", options->slurm, "run nothing: write a job array script for Slurm to this file");
     command->callback([&chosen, options] { chosen = [options] { return sweep(*options); }; });

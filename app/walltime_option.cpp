@@ -1,0 +1,16 @@
+#include "app/walltime_option.h"
+
+#include "app/stop_request.h"
+
+#include <CLI/CLI.hpp>
+
+namespace app
+{
+void add_walltime(CLI::App& command, std::optional<double>& seconds, const std::string& meaning)
+{
+    command
+        .add_option_function<std::string>(
+            "--walltime", [&seconds](const std::string& text) { seconds = parse_walltime(text); }, meaning)
+        ->type_name("T");
+}
+} // namespace app
