@@ -130,52 +130,38 @@ Pack<U, N> convert(Pack<T, N> a)
 
 namespace detail
 {
-/// Place of lane `i` of a shuffle pattern written for eight lanes, where both operands hold `lanes / 8` groups of
-/// eight.
-constexpr int grouped(const int (&pattern)[8], int lanes, int i)
+/// One round of a transpose: of every pair of vectors whose numbers differ in bit `Distance` only, swap the upper half
+/// of one with the lower half of the other, halves of groups of 2 Distance lanes.
+template <int Distance, class T, int N>
+[[gnu::always_inline]] inline void swap_halves(Pack<T, N>& a, Pack<T, N>& b)
 {
-    const int from = pattern[i % 8];
-    return (from < 8 ? 0 : lanes) + i / 8 * 8 + from % 8;
-}
-
-template <const int (&Pattern)[8], class T, int N>
-[[gnu::always_inline]] inline Pack<T, N> shuffled(Pack<T, N> a, Pack<T, N> b)
-{
-    return [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline))->Pack<T, N>
+    [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline))
     {
-        return {__builtin_shufflevector(a.v, b.v, grouped(Pattern, N, I)...)};
+        const Pack<T, N> lower{__builtin_shufflevector(a.v, b.v, ((I & Distance) == 0 ? I : N + I - Distance)...)};
+        const Pack<T, N> upper{__builtin_shufflevector(a.v, b.v, ((I & Distance) == 0 ? I + Distance : N + I)...)};
+        a = lower;
+        b = upper;
     }
     (std::make_integer_sequence<int, N>{});
 }
 
-inline constexpr int pair_even[8] = {0, 8, 2, 10, 4, 12, 6, 14};
-inline constexpr int pair_odd[8] = {1, 9, 3, 11, 5, 13, 7, 15};
-inline constexpr int quad_lower[8] = {0, 1, 8, 9, 4, 5, 12, 13};
-inline constexpr int quad_upper[8] = {2, 3, 10, 11, 6, 7, 14, 15};
-inline constexpr int half_lower[8] = {0, 1, 2, 3, 8, 9, 10, 11};
-inline constexpr int half_upper[8] = {4, 5, 6, 7, 12, 13, 14, 15};
+template <int Distance, class T, int N, int M>
+[[gnu::always_inline]] inline void transpose_from(Pack<T, N> (&r)[M])
+{
+    if constexpr (Distance < M) {
+        for (int i = 0; i < M; ++i)
+            if ((i & Distance) == 0) swap_halves<Distance>(r[i], r[i + Distance]);
+        transpose_from<2 * Distance>(r);
+    }
+}
 } // namespace detail
 
-/// Rows become columns in every 8x8 block of eight vectors (N = 8: one block, N = 16: two side by side), in three
-/// rounds of pairwise shuffles.
-template <class T, int N>
-requires(N % 8 == 0) [[gnu::always_inline]] inline void transpose(Pack<T, N> (&r)[8])
+/// Rows become columns in every M x M block of M vectors (N = M: one block, N = 2 M: two side by side), in rounds of
+/// pairwise shuffles. M is a power of two that divides N.
+template <class T, int N, int M>
+requires(N % M == 0 && (M & (M - 1)) == 0) [[gnu::always_inline]] inline void transpose(Pack<T, N> (&r)[M])
 {
-    using namespace detail;
-    Pack<T, N> pair[8], quad[8];
-    for (int i = 0; i < 8; i += 2) {
-        pair[i] = shuffled<pair_even>(r[i], r[i + 1]);
-        pair[i + 1] = shuffled<pair_odd>(r[i], r[i + 1]);
-    }
-    for (int half = 0; half < 8; half += 4)
-        for (int i = half; i < half + 2; ++i) {
-            quad[i] = shuffled<quad_lower>(pair[i], pair[i + 2]);
-            quad[i + 2] = shuffled<quad_upper>(pair[i], pair[i + 2]);
-        }
-    for (int i = 0; i < 4; ++i) {
-        r[i] = shuffled<half_lower>(quad[i], quad[i + 4]);
-        r[i + 4] = shuffled<half_upper>(quad[i], quad[i + 4]);
-    }
+    detail::transpose_from<1>(r);
 }
 
 template <class T, int N>

@@ -1,5 +1,5 @@
 #include "core/parallel.h"
-#include "transfer/advance_cell.h"
+#include "transfer/advance_plain.h"
 #include "transfer/gimp_passes.h"
 #include "transfer/interface_affine.h"
 #include "transfer/passes.h"
@@ -32,6 +32,11 @@ void advance_leaf(const PassOptions& options, const LawTable& laws, std::size_t 
         for (int c = 0; c < grid::leaf_cells; ++c) {
             if (start[c] == start[c + 1]) continue;
             const CellFrame cell = cell_frame(frame, c);
+            if (at_once && is_plain(particles, start[c], start[c + 1])) {
+                advance_plain<F, T, S>(options, laws, cell, levels.motions(leaf), start[c], particles, outcome,
+                                       levels.sums(leaf));
+                continue;
+            }
             advance_cell<F, T, S>(options, laws, cell, Visitors::residents, levels.motions(leaf), start[c],
                                   start[c + 1], particles, outcome);
             if (at_once) scatter_residents<F, T>(cell, laws, particles, start[c], start[c + 1], levels.sums(leaf));

@@ -7,7 +7,7 @@
 #include "material/rotation.h"
 #include "material/von_mises.h"
 #include "particles/tensors.h"
-#include "transfer/chunk.h"
+#include "transfer/given.h"
 #include "transfer/middle_gradient.h"
 #include "transfer/passes.h"
 #include "transfer/separate_lanes.h"
@@ -26,6 +26,8 @@ struct LeafOutcome
 
 namespace detail
 {
+constexpr std::size_t group_size = 64; // particles averaged together at most; more do not meet in a cell
+
 struct Kinematics
 {
     core::Mat<Lanes> gradient_increment; // 1, L dt
@@ -58,13 +60,15 @@ struct Kinematics
 /// F <- F + dt dF, and the increment L dt = dt dF F^{-1} at the middle of the step; `volume` becomes V0 J there.
 [[gnu::always_inline]] inline core::Mat<Lanes> advance_deformation(const core::Mat<Lanes>& rate_increment,
                                                                    std::size_t begin, int count,
-                                                                   particles::Particles& particles, Lanes& volume)
+                                                                   particles::Particles& particles, Lanes& volume,
+                                                                   Given& given)
 {
     const auto f = load_all<core::Mat<Lanes>>(particles.deformation_gradient, begin, count);
     core::Mat<Lanes> middle;
     for (std::size_t n = 0; n < 9; ++n) {
         middle.m[n] = f.m[n] + Lanes(Real(0.5)) * rate_increment.m[n];
-        store(f.m[n] + rate_increment.m[n], particles.deformation_gradient[n], begin, count);
+        given.deformation.m[n] = f.m[n] + rate_increment.m[n];
+        store(given.deformation.m[n], particles.deformation_gradient[n], begin, count);
     }
     Lanes jacobian;
     const core::Mat<Lanes> l = middle_gradient(rate_increment, middle, jacobian);
@@ -87,12 +91,14 @@ struct Kinematics
 /// @param g       gradient that strains the particles [1/ms], rows: component, columns: direction
 /// @param affine  new matrices of APIC [1/ms]; read with stress last only
 /// @param change  `change(a)`: change of velocity component a [mm/ms]; called for FLIP with stress last only
+/// @param given   gets what the particles give the grid next, but for the stress and, in the total formulation, the
+///                position of the weights; a caller that does not read it pays nothing
 template <Formulation F, Transfer T, StressUpdate S, bool Plain = false, class Change>
 [[gnu::always_inline]] inline void
 carry(const PassOptions& options, const LawTable& laws, const CellFrame& frame, Visitors visitors,
       const core::Vec<Lanes>& x, const core::Vec<Lanes>& grid_velocity, core::Mat<Lanes>& g,
       const core::Mat<Lanes>& affine, const Change& change, std::size_t begin, int count,
-      particles::Particles& particles, LeafOutcome& outcome, Kinematics& k)
+      particles::Particles& particles, LeafOutcome& outcome, Kinematics& k, Given& given)
 {
     const Lanes dt(options.dt);
     if constexpr (S == StressUpdate::usl) {
@@ -104,30 +110,35 @@ carry(const PassOptions& options, const LawTable& laws, const CellFrame& frame, 
                 fresh = old + change(a);
                 if (options.pic_fraction > 0) fresh += Lanes(options.pic_fraction) * (grid_velocity[a] - fresh);
             }
-            store_where(k.here, fresh, old, particles.velocity[axis], begin, count);
+            given.velocity[a] = core::select(k.here, fresh, old);
+            store(given.velocity[a], particles.velocity[axis], begin, count);
         }
         if constexpr (T == Transfer::apic)
             for (std::size_t n = 0; n < 9; ++n)
                 store_where(k.here, affine.m[n], load(particles.affine[n], begin, count), particles.affine[n], begin,
                             count);
+    } else {
+        given.velocity = load_all<core::Vec<Lanes>>(particles.velocity, begin, count);
     }
     core::Vec<Lanes> moved;
     for (int a = 0; a < 3; ++a) {
         moved[a] = core::select(k.here, x[a] + dt * grid_velocity[a], x[a]);
         store(moved[a], particles.position[static_cast<std::size_t>(a)], begin, count);
     }
-    k.volume = load(particles.rest_volume, begin, count);
+    k.volume = given.volume = load(particles.rest_volume, begin, count);
     for (Lanes& entry : g.m) entry *= dt;
     k.averaged = k.here & law_lanes<Plain>(laws, particles, begin, count).averaged;
     if constexpr (F == Formulation::total) {
-        k.gradient_increment = advance_deformation(g, begin, count, particles, k.volume);
+        k.gradient_increment = advance_deformation(g, begin, count, particles, k.volume, given);
     } else {
         k.gradient_increment = g;
         const Lanes ratio = load(particles.volume_ratio, begin, count);
         const Lanes half = Lanes(Real(0.5)) * (g(0, 0) + g(1, 1) + g(2, 2));
-        const Lanes fresh = ratio * (Lanes(Real(1)) + half) / (Lanes(Real(1)) - half);
-        store_where(k.here, fresh, ratio, particles.volume_ratio, begin, count);
+        const Lanes fresh = core::select(k.here, ratio * (Lanes(Real(1)) + half) / (Lanes(Real(1)) - half), ratio);
+        store(fresh, particles.volume_ratio, begin, count);
         k.volume *= Lanes(Real(0.5)) * (ratio + fresh);
+        given.volume *= fresh;
+        given.position = moved;
         LaneMask left = k.here & !inside(frame, moved);
         if (visitors == Visitors::everyone) {
             const LaneMask home = present<F>(Visitors::residents, particles, begin, count);
@@ -145,13 +156,16 @@ carry(const PassOptions& options, const LawTable& laws, const CellFrame& frame, 
 template <Formulation F, Transfer T, StressUpdate S, bool Plain>
 [[gnu::always_inline]] inline void move(const PassOptions& options, const LawTable& laws, const CellFrame& frame,
                                         Visitors visitors, const CellField& field, std::size_t begin, int count,
-                                        particles::Particles& particles, LeafOutcome& outcome, Kinematics& k)
+                                        particles::Particles& particles, LeafOutcome& outcome, Kinematics& k,
+                                        Given& given)
 {
     const auto x = load_all<core::Vec<Lanes>>(particles.position, begin, count);
+    given.mass = load(particles.mass, begin, count);
     LocalPosition<Lanes> at;
     k.here = present<F, Plain>(visitors, particles, begin, count);
     if constexpr (F == Formulation::total) {
-        at = local_position(frame, load_all<core::Vec<Lanes>>(particles.rest_position, begin, count));
+        given.position = load_all<core::Vec<Lanes>>(particles.rest_position, begin, count);
+        at = local_position(frame, given.position);
     } else {
         at = local_position(frame, x);
     }
@@ -167,7 +181,7 @@ template <Formulation F, Transfer T, StressUpdate S, bool Plain>
         return value(field, change_column + a, at);
     };
     carry<F, T, S, Plain>(options, laws, frame, visitors, x, grid_velocity, g, g, change, begin, count, particles,
-                          outcome, k);
+                          outcome, k, given);
 }
 
 /// Strain increment with the cell's mean dilatation on averaged lanes.
@@ -180,11 +194,11 @@ template <Formulation F, Transfer T, StressUpdate S, bool Plain>
     return e;
 }
 
-/// Stage two: stress, plastic strain, decohesion.
+/// Stage two: stress, plastic strain, decohesion; the stress that the plastic law gives is returned.
 template <bool Plain>
-[[gnu::always_inline]] inline void update_stress(const PassOptions& options, const LawTable& laws, Real per_spacing,
-                                                 Kinematics& k, Real mean_dilatation, std::size_t begin, int count,
-                                                 particles::Particles& particles, LeafOutcome& outcome)
+[[gnu::always_inline]] inline core::Sym<Lanes>
+update_stress(const PassOptions& options, const LawTable& laws, Real per_spacing, Kinematics& k, Real mean_dilatation,
+              std::size_t begin, int count, particles::Particles& particles, LeafOutcome& outcome)
 {
     const auto old = load_all<core::Sym<Lanes>>(particles.stress, begin, count);
     const Lanes old_strain = load(particles.eq_plastic_strain, begin, count);
@@ -199,12 +213,15 @@ template <bool Plain>
         material::PlasticConstants<Lanes>{law.yield, law.hardening, Lanes(Real(3)) * law.shear, law.per_overstress});
     Lanes plastic_work = core::select(k.here, step.work * k.volume, Lanes(Real(0)));
 
-    for (int n = 0; n < 6; ++n)
-        store_where(k.here, step.stress[n], old[n], particles.stress[static_cast<std::size_t>(n)], begin, count);
+    core::Sym<Lanes> stress;
+    for (std::size_t n = 0; n < 6; ++n) {
+        stress.s[n] = core::select(k.here, step.stress.s[n], old.s[n]);
+        store(stress.s[n], particles.stress[n], begin, count);
+    }
     store_where(k.here, step.eq_plastic_strain, old_strain, particles.eq_plastic_strain, begin, count);
     if (!laws.any_decohesion) {
         outcome.work.plastic += core::sum(plastic_work);
-        return;
+        return stress;
     }
     if (!Plain && !particles.cracks.empty()) {
         const SeparatingChunk chunk{options, laws, per_spacing, begin,      count,   k.here,
@@ -213,6 +230,7 @@ template <bool Plain>
     }
     outcome.work.plastic += core::sum(plastic_work);
     k.may_start = k.here & material::may_start(step.stress, law.tensile_onset, law.shear_onset);
+    return stress;
 }
 
 /// Gradient increments of the first `count` particles of a group, lane by lane.
@@ -222,26 +240,37 @@ inline void unpack_gradients(const Kinematics* k, std::size_t count, core::Mat<R
         for (std::size_t n = 0; n < 9; ++n)
             gradient[p].m[n] = k[p / Lanes::lanes].gradient_increment.m[n][static_cast<int>(p % Lanes::lanes)];
 }
+
+/// Exact onset test of the particles [first, last) of a group, where the cheap one did not clear all of them.
+[[gnu::noinline]] inline void test_onset(const PassOptions& options, const LawTable& laws, const CellFrame& frame,
+                                         const Kinematics* k, std::size_t first, std::size_t last,
+                                         const particles::Particles& particles, std::vector<Onset>& onset)
+{
+    core::Mat<Real> gradient[group_size];
+    core::Sym<Real> stress[group_size];
+    unpack_gradients(k, last - first, gradient);
+    for (std::size_t p = first; p < last; ++p) stress[p - first] = particles::stress_of(particles, p);
+    start_cracks(options, laws, particles, first, last, Real(1) / frame.per_spacing, stress, gradient, onset);
+}
 } // namespace detail
 
 /// Advance the particles [begin, end) of one cell; `move(first, count, k)` is stage one of a chunk.
-template <bool Plain = false, class Move>
+template <class Move>
 [[gnu::always_inline]] inline void
 advance_group(const PassOptions& options, const LawTable& laws, const CellFrame& frame, std::size_t begin,
               std::size_t end, particles::Particles& particles, LeafOutcome& outcome, const Move& move)
 {
-    constexpr std::size_t group = 64; // particles averaged together at most; more do not meet in a cell
-    constexpr std::size_t chunks = group / Lanes::lanes;
-    for (std::size_t first = begin; first < end; first += group) {
-        const std::size_t last = std::min(end, first + group);
-        detail::Kinematics k[chunks];
+    using detail::group_size;
+    for (std::size_t first = begin; first < end; first += group_size) {
+        const std::size_t last = std::min(end, first + group_size);
+        detail::Kinematics k[group_size / Lanes::lanes];
         Real volume = 0;
         Real dilated = 0;
         std::size_t c = 0;
         for (std::size_t p = first; p < last; p += Lanes::lanes, ++c) {
             const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
             // Two copies: without a tail the compiler drops every test of `count`.
-            Plain || count == Lanes::lanes ? move(p, Lanes::lanes, k[c]) : move(p, count, k[c]);
+            count == Lanes::lanes ? move(p, Lanes::lanes, k[c]) : move(p, count, k[c]);
             volume += core::sum(core::select(k[c].averaged, k[c].volume, Lanes(Real(0))));
             dilated += core::sum(core::select(k[c].averaged, k[c].volume * k[c].dilatation, Lanes(Real(0))));
         }
@@ -250,49 +279,29 @@ advance_group(const PassOptions& options, const LawTable& laws, const CellFrame&
         c = 0;
         for (std::size_t p = first; p < last; p += Lanes::lanes, ++c) {
             const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
-            Plain || count == Lanes::lanes
-                ? detail::update_stress<Plain>(options, laws, frame.per_spacing, k[c], mean_dilatation, p, Lanes::lanes,
-                                               particles, outcome)
-                : detail::update_stress<Plain>(options, laws, frame.per_spacing, k[c], mean_dilatation, p, count,
-                                               particles, outcome);
+            count == Lanes::lanes ? detail::update_stress<false>(options, laws, frame.per_spacing, k[c],
+                                                                 mean_dilatation, p, Lanes::lanes, particles, outcome)
+                                  : detail::update_stress<false>(options, laws, frame.per_spacing, k[c],
+                                                                 mean_dilatation, p, count, particles, outcome);
             near_onset = near_onset || (laws.any_decohesion && core::any(k[c].may_start));
         }
-        if (near_onset) {
-            core::Mat<Real> gradient[group];
-            detail::unpack_gradients(k, last - first, gradient);
-            core::Sym<Real> stress[group];
-            for (std::size_t p = first; p < last; ++p) stress[p - first] = particles::stress_of(particles, p);
-            start_cracks(options, laws, particles, first, last, Real(1) / frame.per_spacing, stress, gradient,
-                         outcome.onset);
-        }
+        if (near_onset) detail::test_onset(options, laws, frame, k, first, last, particles, outcome.onset);
     }
 }
 
-namespace detail
-{
-template <Formulation F, Transfer T, StressUpdate S, bool Plain>
-[[gnu::noinline]] void advance_served(const PassOptions& options, const LawTable& laws, const CellFrame& frame,
-                                      Visitors visitors, const grid::NodeMotion* tile, std::size_t begin,
-                                      std::size_t end, particles::Particles& particles, LeafOutcome& outcome)
+/// Advance the particles [begin, end) that are served.
+template <Formulation F, Transfer T, StressUpdate S>
+[[gnu::noinline]] void advance_cell(const PassOptions& options, const LawTable& laws, const CellFrame& frame,
+                                    Visitors visitors, const grid::NodeMotion* tile, std::size_t begin, std::size_t end,
+                                    particles::Particles& particles, LeafOutcome& outcome)
 {
     CellField field;
     read_cell(tile + frame.node, field);
-    advance_group<Plain>(
+    advance_group(
         options, laws, frame, begin, end, particles,
-        outcome, [&](std::size_t p, int count, Kinematics& k) __attribute__((always_inline)) {
-            move<F, T, S, Plain>(options, laws, frame, visitors, field, p, count, particles, outcome, k);
+        outcome, [&](std::size_t p, int count, detail::Kinematics& k) __attribute__((always_inline)) {
+            Given given; // the scatter reads the columns
+            detail::move<F, T, S, false>(options, laws, frame, visitors, field, p, count, particles, outcome, k, given);
         });
-}
-} // namespace detail
-
-/// Advance the particles [begin, end) that are served.
-template <Formulation F, Transfer T, StressUpdate S>
-void advance_cell(const PassOptions& options, const LawTable& laws, const CellFrame& frame, Visitors visitors,
-                  const grid::NodeMotion* tile, std::size_t begin, std::size_t end, particles::Particles& particles,
-                  LeafOutcome& outcome)
-{
-    visitors == Visitors::residents&& is_plain(particles, begin, end)
-        ? detail::advance_served<F, T, S, true>(options, laws, frame, visitors, tile, begin, end, particles, outcome)
-        : detail::advance_served<F, T, S, false>(options, laws, frame, visitors, tile, begin, end, particles, outcome);
 }
 } // namespace transfer

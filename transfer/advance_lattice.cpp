@@ -15,14 +15,14 @@ namespace transfer
 {
 namespace
 {
-/// Gradients of the block's cells at the slots, and the volumes.
+/// Gradients of the part's cells at the slots, and the volumes.
 template <class T>
 [[gnu::always_inline]] inline void find_gradients(const Context& context, const grid::NodeMotion* tile,
-                                                  const CellBlock<T>& block, Work<T>& work)
+                                                  const BlockPart<T>& part, Work<T>& work)
 {
-    using V = BlockLanes<T>;
+    using V = PartLanes<T>;
     V corner_velocity[3][8], corner_displacement[3][8];
-    gather_corners(tile, block, corner_velocity, corner_displacement);
+    gather_corners(tile, part, corner_velocity, corner_displacement);
     Slopes<V> velocity[3];
     for (int a = 0; a < 3; ++a) {
         velocity[a] = slopes_at_slots(corner_velocity[a]);
@@ -43,15 +43,15 @@ template <class T>
 }
 
 template <class T>
-using BlockMask = core::Mask<T, block_lanes<T>>;
+using PartMask = core::Mask<T, part_lanes<T>>;
 
 /// Mean dilatation of the averaged particles of every cell, weighted by volume (methods.md B8).
 /// @param intact  [slot] lanes with a particle that follows the plastic law
 template <class T>
-[[gnu::always_inline]] inline BlockLanes<T> mean_dilatation(const Work<T>& work, int law_step,
-                                                            const BlockMask<T> (&intact)[slots])
+[[gnu::always_inline]] inline PartLanes<T> mean_dilatation(const Work<T>& work, int law_step,
+                                                           const PartMask<T> (&intact)[slots])
 {
-    using V = BlockLanes<T>;
+    using V = PartLanes<T>;
     V volume(T(0)), dilated(T(0));
     for (int s = 0; s < slots; ++s) {
         const core::Mat<V>& g = work.gradient[s];
@@ -65,41 +65,42 @@ template <class T>
 /// Stress and plastic strain of one slot after the step, zero stress where nothing is intact; the plastic work is
 /// returned [mJ].
 template <class T>
-[[gnu::always_inline]] inline BlockLanes<T> update_stress(const SlotLaw<T>& law, BlockMask<T> intact,
-                                                          BlockLanes<T> mean, int s, const Work<T>& work,
-                                                          BlockState<T>& state, core::Sym<BlockLanes<T>>& stress)
+[[gnu::always_inline]] inline PartLanes<T> update_stress(const SlotLaw<T>& law, PartMask<T> intact, PartLanes<T> mean,
+                                                         const BlockPart<T>& part, int s, const Work<T>& work,
+                                                         BlockState<T>& state, core::Sym<PartLanes<T>>& stress)
 {
-    using V = BlockLanes<T>;
+    using V = PartLanes<T>;
     const core::Mat<V>& g = work.gradient[s];
     core::Sym<V> strain = core::symmetric_part(g);
     const V shift = law.averaged * (mean - core::trace(strain)) * V(Real(1) / 3);
     for (int a = 0; a < 3; ++a) strain[a] += shift;
     core::Sym<V> old;
-    for (std::size_t n = 0; n < 6; ++n) old.s[n] = load_slot<T>(state.stress[n], s);
+    for (std::size_t n = 0; n < 6; ++n) old.s[n] = part.load(state.stress[n], s);
     const core::Vec<V> spin = material::spin_increment(g);
     const core::Sym<V> trial = material::elastic_trial(core::rotated(material::incremental_rotation(spin), old),
                                                        material::at_end_of_step(strain, spin),
                                                        material::LameConstants<V>{law.lame, law.shear + law.shear});
     const material::PlasticStep<V> step = material::radial_return(
-        trial, load_slot<T>(state.eq_plastic_strain, s),
+        trial, part.load(state.eq_plastic_strain, s),
         material::PlasticConstants<V>{law.yield, law.hardening, V(Real(3)) * law.shear, law.per_overstress});
     for (std::size_t n = 0; n < 6; ++n) {
         stress.s[n] = core::select(intact, step.stress.s[n], V(T(0)));
-        store_slot<T>(stress.s[n], s, state.stress[n]);
+        part.store(stress.s[n], s, state.stress[n]);
     }
-    store_slot<T>(step.eq_plastic_strain, s, state.eq_plastic_strain);
+    part.store(step.eq_plastic_strain, s, state.eq_plastic_strain);
     return core::select(intact, step.work * work.volume[s], V(T(0)));
 }
 
 /// V0 P = V0 sigma cof(F) of one slot, added to the fluxes of the slopes it shares.
 template <class T>
-[[gnu::always_inline]] inline void add_flux(Real per_spacing, int s, const BlockState<T>& state, Work<T>& work)
+[[gnu::always_inline]] inline void add_flux(Real per_spacing, const BlockPart<T>& part, int s,
+                                            const BlockState<T>& state, Work<T>& work)
 {
-    using V = BlockLanes<T>;
+    using V = PartLanes<T>;
     const core::Mat<V> cof = core::cofactor(deformation_at(work.displacement, s, per_spacing));
     const V volume = work.rest_volume[s] * V(-per_spacing); // f = - sum V0 P grad w
     core::Sym<V> stress;
-    for (std::size_t n = 0; n < 6; ++n) stress.s[n] = volume * load_slot<T>(state.stress[n], s);
+    for (std::size_t n = 0; n < 6; ++n) stress.s[n] = volume * part.load(state.stress[n], s);
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             work.flux[i].along[j][slope_place(j, s)] +=
@@ -107,22 +108,22 @@ template <class T>
 }
 
 template <class T>
-[[gnu::always_inline]] inline void scatter_force(const Context& context, const CellBlock<T>& block,
+[[gnu::always_inline]] inline void scatter_force(const Context& context, const BlockPart<T>& part,
                                                  const BlockState<T>& state, Work<T>& work, grid::NodeForce* tile)
 {
-    using V = BlockLanes<T>;
+    using V = PartLanes<T>;
     for (Slopes<V>& flux : work.flux)
         for (auto& axis : flux.along)
             for (V& value : axis) value = V(T(0));
-    for (int s = 0; s < slots; ++s) add_flux(context.per_spacing, s, state, work);
+    for (int s = 0; s < slots; ++s) add_flux(context.per_spacing, part, s, state, work);
     V force[3][8];
     for (int a = 0; a < 3; ++a) slopes_to_corners(work.flux[a], force[a]);
-    scatter_corners(force, block, tile);
+    scatter_corners(force, part, tile);
 }
 
 /// Exact onset test of a cell where the cheap one did not clear every particle.
 template <class T>
-[[gnu::noinline]] void test_onset(const Context& context, const CellBlock<T>& block, const BlockState<T>& state,
+[[gnu::noinline]] void test_onset(const Context& context, const BlockPart<T>& part, const BlockState<T>& state,
                                   const Work<T>& work, int lane, const particles::Particles& particles,
                                   std::vector<Onset>& onset)
 {
@@ -130,11 +131,11 @@ template <class T>
     core::Mat<Real> gradient[slots];
     std::size_t count = 0;
     for (int s = 0; s < slots; ++s) {
-        if (!block.has(lane, s)) continue;
-        stress[count] = stress_at(state, lane, s);
+        if (!part.has(lane, s)) continue;
+        stress[count] = stress_at(state, part.lane(lane), s);
         gradient[count++] = lane_of(work.gradient[s], lane);
     }
-    const std::size_t begin = block.begin[static_cast<std::size_t>(lane)];
+    const std::size_t begin = part.block.begin[part.lane(lane)];
     start_cracks(context.options, context.laws, particles, begin, begin + count, Real(1) / context.per_spacing, stress,
                  gradient, onset);
 }
@@ -148,39 +149,39 @@ template <class T>
 }
 
 template <class T>
-[[gnu::noinline]] void advance_block(const Context& context, const CellBlock<T>& block, const grid::NodeMotion* motion,
-                                     BlockState<T>& state, particles::Particles& particles, grid::NodeForce* force,
-                                     LeafWork& leaf_work, std::vector<Onset>& onset, std::vector<int>& near_cells)
+[[gnu::noinline]] void advance_part(const Context& context, const BlockPart<T>& part, const grid::NodeMotion* motion,
+                                    BlockState<T>& state, particles::Particles& particles, grid::NodeForce* force,
+                                    LeafWork& leaf_work, std::vector<Onset>& onset, std::vector<int>& near_cells)
 {
-    using V = BlockLanes<T>;
+    using V = PartLanes<T>;
     Work<T> work;
-    for (int s = 0; s < slots; ++s) work.rest_volume[s] = load_slot<T>(state.rest_volume, s);
-    find_gradients(context, motion, block, work);
+    for (int s = 0; s < slots; ++s) work.rest_volume[s] = part.load(state.rest_volume, s);
+    find_gradients(context, motion, part, work);
 
-    const int law_step = find_laws(context, block, particles, work.law);
+    const int law_step = find_laws(context, part, particles, work.law);
 
-    SetAside aside[slots * block_lanes<T>];
+    SetAside aside[slots * part_lanes<T>];
     int asides = 0;
-    if (!particles.cracks.empty()) asides = set_cracks_aside(context, block, state, work, particles, aside);
+    if (!particles.cracks.empty()) asides = set_cracks_aside(context, part, state, work, particles, aside);
 
-    BlockMask<T> intact[slots];
+    PartMask<T> intact[slots];
     for (int s = 0; s < slots; ++s) intact[s] = work.rest_volume[s] > V(T(0));
     for (int n = 0; n < asides; ++n) intact[aside[n].slot].v[aside[n].lane] = 0;
 
     const V mean = mean_dilatation(work, law_step, intact);
     V plastic(T(0));
-    BlockMask<T> near = plastic > plastic;
+    PartMask<T> near = plastic > plastic;
     for (int s = 0; s < slots; ++s) {
         const SlotLaw<T>& law = work.law[s * law_step];
         core::Sym<V> stress;
-        plastic += update_stress(law, intact[s], mean, s, work, state, stress);
+        plastic += update_stress(law, intact[s], mean, part, s, work, state, stress);
         if (context.laws.any_decohesion)
             near = near | (intact[s] & material::may_start(stress, law.tensile_onset, law.shear_onset));
     }
     leaf_work.plastic += static_cast<Real>(core::sum(plastic));
     for (int n = 0; n < asides; ++n) {
         const auto& [lane, slot, particle, result, share] = aside[n];
-        const auto s = static_cast<std::size_t>(slot), i = static_cast<std::size_t>(lane);
+        const std::size_t s = static_cast<std::size_t>(slot), i = part.lane(lane);
         for (std::size_t c = 0; c < 6; ++c) state.stress[c][s][i] = static_cast<T>(result.stress.s[c]);
         state.eq_plastic_strain[s][i] = static_cast<T>(result.eq_plastic_strain);
         work.rest_volume[slot].v[lane] *= static_cast<T>(share);
@@ -188,13 +189,13 @@ template <class T>
         leaf_work.decohesion += result.decohesion_work;
     }
 
-    scatter_force(context, block, state, work, force);
+    scatter_force(context, part, state, work, force);
 
     if (context.laws.any_decohesion && core::any(near))
-        for (int i = 0; i < block.count; ++i) {
+        for (int i = 0; i < part.count(); ++i) {
             if (!near[i]) continue;
-            test_onset(context, block, state, work, i, particles, onset);
-            if (context.laws.nonlocal_radius > 0) near_cells.push_back(block.cell[static_cast<std::size_t>(i)]);
+            test_onset(context, part, state, work, i, particles, onset);
+            if (context.laws.nonlocal_radius > 0) near_cells.push_back(part.cell(i));
         }
 }
 
@@ -207,8 +208,9 @@ void advance_leaf(const Context& context, BlockTable<T>& table, particles::Parti
     grid::for_nodes(levels.used[context.leaf], grid::leaf_side, [&](int node) { force[node].force = {}; });
     for (std::uint32_t b = table.start[context.leaf]; b < table.start[context.leaf + 1]; ++b) {
         prefetch(&table.state[b] + 1); // beyond the last one nothing is read
-        advance_block(context, table.block[b], levels.motions(context.leaf), table.state[b], particles, force,
-                      leaf_work, onset, near_cells);
+        for (int first = 0; first < table.block[b].count; first += part_lanes<T>)
+            advance_part(context, BlockPart<T>{table.block[b], first}, levels.motions(context.leaf), table.state[b],
+                         particles, force, leaf_work, onset, near_cells);
     }
 }
 

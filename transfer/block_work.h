@@ -1,4 +1,4 @@
-/// What the stages of the lattice kernel hand on for one block (transfer/advance_lattice.cpp).
+/// What the stages of the lattice kernel hand on for one part of a block (transfer/advance_lattice.cpp).
 #pragma once
 
 #include "transfer/lattice.h"
@@ -14,19 +14,19 @@ struct Context
     std::size_t leaf;
 };
 
-/// Material constants of one slot of every cell.
+/// Material constants of one slot of every cell of a part.
 template <class T>
 struct SlotLaw
 {
-    BlockLanes<T> lame, shear, yield, hardening, per_overstress, tensile_onset, shear_onset;
-    BlockLanes<T> averaged; // 1 where the dilatation is averaged, else 0
+    PartLanes<T> lame, shear, yield, hardening, per_overstress, tensile_onset, shear_onset;
+    PartLanes<T> averaged; // 1 where the dilatation is averaged, else 0
 };
 
-/// What the stages of a block hand on; about 15 kB, so it stays in the nearest cache.
+/// What the stages of a part of a block hand on; 15 kB at most, so it stays in the nearest cache.
 template <class T>
 struct Work
 {
-    using V = BlockLanes<T>;
+    using V = PartLanes<T>;
     Slopes<V> displacement[3];    // mm, [component]
     core::Mat<V> gradient[slots]; // 1, L dt in the middle of the step
     V rest_volume[slots];         // mm^3; of separating particles the metal part once their law has been called
@@ -53,13 +53,13 @@ core::Mat<Real> deformation_of_lane(const Slopes<V> (&displacement)[3], int slot
     return f;
 }
 
+/// @param lane  of the block
 template <class T>
-core::Sym<Real> stress_at(const BlockState<T>& state, int lane, int slot)
+core::Sym<Real> stress_at(const BlockState<T>& state, std::size_t lane, int slot)
 {
     core::Sym<Real> stress{};
     for (std::size_t n = 0; n < 6; ++n)
-        stress.s[n] =
-            static_cast<Real>(state.stress[n][static_cast<std::size_t>(slot)][static_cast<std::size_t>(lane)]);
+        stress.s[n] = static_cast<Real>(state.stress[n][static_cast<std::size_t>(slot)][lane]);
     return stress;
 }
 
@@ -79,7 +79,7 @@ void set_lane(SlotLaw<T>& law, int lane, const LawConstants& c)
 template <class T>
 SlotLaw<T> broadcast(const LawConstants& c)
 {
-    const auto lanes = [](Real value) { return BlockLanes<T>(static_cast<T>(value)); };
+    const auto lanes = [](Real value) { return PartLanes<T>(static_cast<T>(value)); };
     return {
         lanes(c.lame),           lanes(c.shear),         lanes(c.yield),       lanes(c.hardening),
         lanes(c.per_overstress), lanes(c.tensile_onset), lanes(c.shear_onset), lanes(c.averaged_dilatation ? 1 : 0)};
@@ -87,24 +87,24 @@ SlotLaw<T> broadcast(const LawConstants& c)
 
 /// Laws slot by slot, for a leaf of several materials.
 template <class T>
-[[gnu::noinline]] void mixed_laws(const Context& context, const CellBlock<T>& block,
+[[gnu::noinline]] void mixed_laws(const Context& context, const BlockPart<T>& part,
                                   const particles::Particles& particles, SlotLaw<T> (&law)[slots])
 {
     for (int s = 0; s < slots; ++s) {
         law[s] = broadcast<T>(context.laws.constants[0]);
-        for (int i = 0; i < block.count; ++i)
-            if (block.has(i, s)) set_lane(law[s], i, context.laws.constants[particles.material[block.particle(i, s)]]);
+        for (int i = 0; i < part.count(); ++i)
+            if (part.has(i, s)) set_lane(law[s], i, context.laws.constants[particles.material[part.particle(i, s)]]);
     }
 }
 
-/// Laws of the block's particles; slot s has law[s * step], and step is returned: 0 where one law serves all.
+/// Laws of the part's particles; slot s has law[s * step], and step is returned: 0 where one law serves all.
 template <class T>
-int find_laws(const Context& context, const CellBlock<T>& block, const particles::Particles& particles,
+int find_laws(const Context& context, const BlockPart<T>& part, const particles::Particles& particles,
               SlotLaw<T> (&law)[slots])
 {
     const std::int32_t material = context.lattice.material[context.leaf];
     if (material == Lattice::mixed) {
-        mixed_laws(context, block, particles, law);
+        mixed_laws(context, part, particles, law);
         return 1;
     }
     law[0] = broadcast<T>(context.laws.constants[static_cast<std::size_t>(material)]);

@@ -1,5 +1,5 @@
-/// A block: cells of one leaf side by side, one per SIMD lane, the state of their particles, and how node lines become
-/// lanes.
+/// A block: cells of one leaf side by side, one per SIMD lane, the state of their particles, and how they meet the
+/// nodes.
 ///
 /// The state is stored as the kernels use it, [slot][cell], four kilobytes per block in one piece. Cells that lack
 /// particles (cut by a surface) have zero volume in their slots, and so have the lanes behind a leaf's last cell. A
@@ -9,8 +9,10 @@
 #include "core/simd.h"
 #include "grid/levels.h"
 #include "particles/particles.h"
+#include "transfer/line_lanes.h"
 #include "transfer/slot_slopes.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -21,8 +23,12 @@ namespace transfer
 template <class T>
 inline constexpr int block_lanes = 64 / static_cast<int>(sizeof(T));
 
+/// Cells that a kernel works on at once: what one vector of the instruction set holds. A block is worked on in parts.
 template <class T>
-using BlockLanes = core::Pack<T, block_lanes<T>>;
+inline constexpr int part_lanes = core::native_lanes<T> < block_lanes<T> ? core::native_lanes<T> : block_lanes<T>;
+
+template <class T>
+using PartLanes = core::Pack<T, part_lanes<T>>;
 
 template <class T>
 struct CellBlock
@@ -54,82 +60,49 @@ struct alignas(64) BlockState
     std::array<Slots, 6> stress; // MPa, Cauchy: xx yy zz xy yz zx
 };
 
+/// Some neighbouring lanes of a block, as many as a vector holds; lanes are counted from the part's first.
 template <class T>
-[[gnu::always_inline]] inline BlockLanes<T> load_slot(const typename BlockState<T>::Slots& from, int slot)
+struct BlockPart
 {
-    return BlockLanes<T>::load(from[static_cast<std::size_t>(slot)].data());
-}
-template <class T>
-[[gnu::always_inline]] inline void store_slot(const BlockLanes<T>& lanes, int slot, typename BlockState<T>::Slots& to)
-{
-    lanes.store(to[static_cast<std::size_t>(slot)].data());
-}
+    const CellBlock<T>& block;
+    int begin; // lane of the block
 
-namespace detail
-{
-using Row = core::Pack<Real, 8>;
+    int first() const { return part_lanes<T> == block_lanes<T> ? 0 : begin; }
+    int count() const { return std::min(block.count - first(), part_lanes<T>); } // cells
+    std::size_t lane(int i) const { return static_cast<std::size_t>(first() + i); }
+    int cell(int i) const { return block.cell[lane(i)]; }
+    int node(int i) const { return block.node[lane(i)]; }
+    bool has(int i, int slot) const { return block.has(first() + i, slot); }
+    std::size_t particle(int i, int slot) const { return block.particle(first() + i, slot); }
 
-/// Two rows of eight as one vector of sixteen.
-[[gnu::always_inline]] inline core::Pack<float, 16> joined(const Row& lower, const Row& upper)
-{
-    const auto a = core::convert<float>(lower), b = core::convert<float>(upper);
-    return {__builtin_shufflevector(a.v, b.v, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)};
-}
-[[gnu::always_inline]] inline Row lower_row(const core::Pack<float, 16>& both)
-{
-    return core::convert<Real>(core::Pack<float, 8>{__builtin_shufflevector(both.v, both.v, 0, 1, 2, 3, 4, 5, 6, 7)});
-}
-[[gnu::always_inline]] inline Row upper_row(const core::Pack<float, 16>& both)
-{
-    return core::convert<Real>(
-        core::Pack<float, 8>{__builtin_shufflevector(both.v, both.v, 8, 9, 10, 11, 12, 13, 14, 15)});
-}
-
-/// Make `lanes` rows of eight, `row(lane)`, into eight vectors of lanes.
-template <class T, class RowOf>
-[[gnu::always_inline]] inline void rows_to_lanes(const RowOf& row, BlockLanes<T> (&out)[8])
-{
-    for (int i = 0; i < 8; ++i) {
-        if constexpr (block_lanes<T> == 8)
-            out[i] = row(i);
-        else
-            out[i] = joined(row(i), row(i + 8));
+    [[gnu::always_inline]] PartLanes<T> load(const typename BlockState<T>::Slots& from, int slot) const
+    {
+        return PartLanes<T>::load(from[static_cast<std::size_t>(slot)].data() + first());
     }
-    core::transpose(out);
-}
-
-/// The way back: `take(lane, row)` for every lane.
-template <class T, class Take>
-[[gnu::always_inline]] inline void lanes_to_rows(BlockLanes<T> (&in)[8], const Take& take)
-{
-    core::transpose(in);
-    for (int i = 0; i < 8; ++i) {
-        if constexpr (block_lanes<T> == 8) {
-            take(i, in[i]);
-        } else {
-            take(i, lower_row(in[i]));
-            take(i + 8, upper_row(in[i]));
-        }
+    [[gnu::always_inline]] void store(const PartLanes<T>& lanes, int slot, typename BlockState<T>::Slots& to) const
+    {
+        lanes.store(to[static_cast<std::size_t>(slot)].data() + first());
     }
-}
-} // namespace detail
+};
 
 /// Both vectors of the motion tile at the corners of every cell: [component][corner].
 ///
-/// Values are relative to the block's first node, so that single precision sees differences and not the distance the
+/// Values are relative to the part's first node, so that single precision sees differences and not the distance the
 /// body has travelled; slopes do not change by that.
 template <class T>
-[[gnu::always_inline]] inline void gather_corners(const grid::NodeMotion* tile, const CellBlock<T>& block,
-                                                  BlockLanes<T> (&velocity)[3][8], BlockLanes<T> (&displacement)[3][8])
+[[gnu::always_inline]] inline void gather_corners(const grid::NodeMotion* tile, const BlockPart<T>& part,
+                                                  PartLanes<T> (&velocity)[3][8], PartLanes<T> (&displacement)[3][8])
 {
-    const detail::Row first = detail::Row::load(tile[block.node[0]].velocity.data());
+    constexpr int size = line_piece<part_lanes<T>>;
+    using Piece = core::Pack<Real, size>;
+    Piece first[8 / size];
+    for (int n = 0; n < 8 / size; ++n) first[n] = Piece::load(tile[part.node(0)].velocity.data() + n * size);
     for (int c = 0; c < 8; ++c) {
         const int corner = grid::tile_index(c >> 2, c >> 1 & 1, c & 1);
-        BlockLanes<T> line[8];
-        detail::rows_to_lanes<T>(
-            [&](int i) {
-                return detail::Row::load(tile[block.node[static_cast<std::size_t>(i)] + corner].velocity.data()) -
-                       first;
+        PartLanes<T> line[8];
+        lines_to_lanes(
+            [&](int i, int place) __attribute__((always_inline)) {
+                return Piece::load(tile[part.node(i) + corner].velocity.data() + place) - first[place / size];
             },
             line);
         for (int a = 0; a < 3; ++a) {
@@ -139,28 +112,41 @@ template <class T>
     }
 }
 
+namespace detail
+{
+/// Add numbers of the two neighbouring nodes n and n + 1, from `place` on.
+template <int N>
+[[gnu::always_inline]] inline void add_to_nodes(const core::Pack<Real, N>& piece, int place, grid::NodeForce* n)
+{
+    Real* target = n[place / 4].force.data() + place % 4;
+    (core::Pack<Real, N>::load(target) + piece).store(target);
+}
+[[gnu::always_inline]] inline void add_to_nodes(const core::Pack<Real, 8>& both, int, grid::NodeForce* n)
+{
+    add_to_nodes(core::Pack<Real, 4>{__builtin_shufflevector(both.v, both.v, 0, 1, 2, 3)}, 0, n);
+    add_to_nodes(core::Pack<Real, 4>{__builtin_shufflevector(both.v, both.v, 4, 5, 6, 7)}, 4, n);
+}
+} // namespace detail
+
 /// Add forces at the corners of every cell, [component][corner], to the nodes of a force tile, lane after lane.
 template <class T>
-[[gnu::always_inline]] inline void scatter_corners(const BlockLanes<T> (&force)[3][8], const CellBlock<T>& block,
+[[gnu::always_inline]] inline void scatter_corners(const PartLanes<T> (&force)[3][8], const BlockPart<T>& part,
                                                    grid::NodeForce* tile)
 {
-    using Half = core::Pack<Real, 4>;
+    const int count = part.count();
     for (int pair = 0; pair < 4; ++pair) { // corners k = 0 and 1 are neighbours in the tile
         const int corner = grid::tile_index(pair >> 1, pair & 1, 0);
-        BlockLanes<T> line[8];
+        PartLanes<T> line[8];
         for (int a = 0; a < 3; ++a) {
             line[a] = force[a][2 * pair];
             line[4 + a] = force[a][2 * pair + 1];
         }
-        line[3] = line[7] = BlockLanes<T>(T(0));
-        detail::lanes_to_rows<T>(line, [&](int i, const detail::Row& row) {
-            if (i >= block.count) return;
-            grid::NodeForce* node = tile + block.node[static_cast<std::size_t>(i)] + corner;
-            const Half lower{__builtin_shufflevector(row.v, row.v, 0, 1, 2, 3)};
-            const Half upper{__builtin_shufflevector(row.v, row.v, 4, 5, 6, 7)};
-            (Half::load(node[0].force.data()) + lower).store(node[0].force.data());
-            (Half::load(node[1].force.data()) + upper).store(node[1].force.data());
-        });
+        line[3] = line[7] = PartLanes<T>(T(0));
+        lanes_to_lines(
+            line, [&](int i, int place, const core::Pack<Real, line_piece<part_lanes<T>>>& piece)
+                      __attribute__((always_inline)) {
+                          if (i < count) detail::add_to_nodes(piece, place, tile + part.node(i) + corner);
+                      });
     }
 }
 } // namespace transfer

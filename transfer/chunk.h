@@ -124,25 +124,9 @@ enum class Visitors
     everyone,  // all particles stored under the cell (gimp)
 };
 
-/// A group of particles is plain when it fills its vectors, nobody in it has left the cell or has decohesion state, and
-/// all follow one law: most cells of most steps. Kernels are compiled for plain groups apart, so that tests of single
-/// particles and masks cost nothing there; the arithmetic is the same.
-inline bool is_plain(const particles::Particles& particles, std::size_t begin, std::size_t end)
-{
-    if ((end - begin) % Lanes::lanes != 0) return false;
-    std::uint8_t away = 0, other = 0;
-    const std::uint8_t law = particles.material[begin];
-    for (std::size_t p = begin; p < end; p += Lanes::lanes)
-        for (std::size_t i = 0; i < Lanes::lanes; ++i) {
-            away = static_cast<std::uint8_t>(away | particles.away[p + i]);
-            other = static_cast<std::uint8_t>(other | (particles.material[p + i] ^ law));
-        }
-    if ((away | other) != 0) return false;
-    if (particles.cracks.empty()) return true;
-    std::int32_t all = -1;
-    for (std::size_t p = begin; p < end; ++p) all &= particles.crack[p];
-    return all < 0;
-}
+/// Particles of a plain cell (transfer/advance_plain.h): functions with `Plain` set know that every lane is a particle
+/// at home, that one law serves all and nobody has decohesion state.
+inline constexpr int plain_size = 8;
 
 /// Every lane.
 inline LaneMask all_lanes()

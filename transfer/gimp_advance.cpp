@@ -36,9 +36,10 @@ void advance_leaf(const PassOptions& options, const LawTable& laws, std::size_t 
             core::Mat<Lanes> gradient = matrix_lanes(chunk.gradient);
             core::Mat<Lanes> affine;
             if constexpr (read == BoxRead::affine) affine = matrix_lanes(chunk.affine);
+            Given given; // the scatter reads the columns
             const auto change = [&](int a) { return Lanes::load(chunk.value[change_column + a]); };
             detail::carry<Formulation::updated, T, S>(options, laws, cell, Visitors::everyone, x, velocity, gradient,
-                                                      affine, change, p, count, particles, outcome, k);
+                                                      affine, change, p, count, particles, outcome, k, given);
         };
         advance_group(options, laws, cell, start[c], start[c + 1], particles, outcome, move);
     }

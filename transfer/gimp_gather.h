@@ -10,7 +10,7 @@ namespace transfer
 struct BoxChunk
 {
     static constexpr int lanes = BoxWeights::lanes;
-    alignas(64) Real value[8][lanes];    // lanes of grid::NodeMotion; affine: the velocity in the first three
+    alignas(64) Real value[8][lanes];    // quantities of grid::NodeMotion; affine: the velocity in the first three
     alignas(64) Real gradient[9][lanes]; // 1/ms, of the velocity or its change, row by row
     alignas(64) Real affine[9][lanes];   // 1/ms, C of APIC
 };
@@ -31,7 +31,7 @@ namespace detail
 template <BoxRead Read>
 [[gnu::noinline]] void gather_cut(BoxSource& source, NodeLine* out, BoxMoments& moments)
 {
-    for (int n = 0; n < box_lines(Read); ++n) out[8 * n] = NodeLine(Real(0));
+    std::fill_n(out, box_lines(Read), NodeLine(Real(0)));
     const std::size_t box = source.next++;
     for (std::size_t n = source.cut.part_start[box]; n < source.cut.part_start[box + 1]; ++n) {
         const BoxPart& part = source.cut.part[n];
@@ -56,16 +56,16 @@ template <BoxRead Read>
 [[gnu::noinline]] void gather_boxes(const BoxWeights& weights, int count, BoxSource& source, BoxChunk& chunk)
 {
     constexpr bool affine = Read == BoxRead::affine;
-    NodeLine line[box_lines(Read)][BoxChunk::lanes];
+    NodeLine line[BoxChunk::lanes][box_lines(Read)];
     alignas(64) Real inertia[3][BoxChunk::lanes] = {};
     if constexpr (affine)
         for (int a = 0; a < 3; ++a) detail::box_inertia(weights, a).store(inertia[a]);
     core::Mat<Real> hanging[BoxChunk::lanes];
     bool any_hanging = false;
     for (int i = 0; i < BoxChunk::lanes; ++i) {
-        NodeLine* out = line[0] + i;
+        NodeLine* out = line[i];
         if (i >= count) { // computed with, never stored
-            for (int n = 0; n < box_lines(Read); ++n) out[8 * n] = NodeLine(Real(0));
+            std::fill_n(out, box_lines(Read), NodeLine(Real(0)));
             continue;
         }
         if (served(source.map, weights, i)) {
@@ -82,26 +82,28 @@ template <BoxRead Read>
             }
         }
     }
-    for (int n = 0; n < box_lines(Read); ++n) core::transpose(line[n]);
-    for (int q = 0; q < 8; ++q) line[0][q].store(chunk.value[q]);
+    Lanes read[box_lines(Read)][8];
+    for (int n = 0; n < box_lines(Read); ++n)
+        lines_to_lanes([&](int i, int place) { return line[i][n].part[place / NodeLine::piece]; }, read[n]);
+    for (int q = 0; q < 8; ++q) read[0][q].store(chunk.value[q]);
     if constexpr (Read != BoxRead::values) {
         constexpr int wanted = Read == BoxRead::change_slopes ? change_column : velocity_column;
         for (int a = 0; a < 3; ++a) {
-            line[1][wanted + a].store(chunk.gradient[3 * a]);
-            line[2][a].store(chunk.gradient[3 * a + 1]);
+            read[1][wanted + a].store(chunk.gradient[3 * a]);
+            read[2][a].store(chunk.gradient[3 * a + 1]);
             if constexpr (affine)
-                line[3][a].store(chunk.gradient[3 * a + 2]);
+                read[3][a].store(chunk.gradient[3 * a + 2]);
             else
-                line[2][4 + a].store(chunk.gradient[3 * a + 2]);
+                read[2][4 + a].store(chunk.gradient[3 * a + 2]);
         }
     }
     if constexpr (affine)
         for (int a = 0; a < 3; ++a)
             for (int b = 0; b < 3; ++b) {
-                NodeLine moment = line[1 + b][4 + a];
+                Lanes moment = read[1 + b][4 + a];
                 if (any_hanging)
                     for (int i = 0; i < count; ++i) moment.v[i] += hanging[i](a, b);
-                (moment / NodeLine::load(inertia[b])).store(chunk.affine[3 * a + b]);
+                (moment / Lanes::load(inertia[b])).store(chunk.affine[3 * a + b]);
             }
 }
 

@@ -9,14 +9,12 @@
 /// A whole box has two or three nodes per axis and weights from a BoxWeights; a part of a cut one has two.
 #pragma once
 
-#include "core/simd.h"
 #include "transfer/gimp_weights.h"
+#include "transfer/line_lanes.h"
+#include "transfer/node_line.h"
 
 namespace transfer
 {
-/// One lane per quantity of a node.
-using NodeLine = core::Pack<Real, 8>;
-
 /// What is read off the grid besides the lanes of grid::NodeMotion.
 enum class BoxRead
 {
@@ -36,23 +34,8 @@ inline constexpr int box_lines(BoxRead read)
 
 namespace detail
 {
-inline constexpr NodeLine::Lanes momentum_lanes = {0, 1, 1, 1, 0, 0, 0, 0};
-inline constexpr NodeLine::Lanes force_lanes = {0, 0, 0, 0, 1, 1, 1, 0};
-
-/// Lower half of a, upper half of b.
-[[gnu::always_inline]] inline NodeLine halves(NodeLine a, NodeLine b)
-{
-    return {__builtin_shufflevector(a.v, b.v, 0, 1, 2, 3, 12, 13, 14, 15)};
-}
-/// Lower halves of both, upper halves of both.
-[[gnu::always_inline]] inline NodeLine lower_halves(NodeLine a, NodeLine b)
-{
-    return {__builtin_shufflevector(a.v, b.v, 0, 1, 2, 3, 8, 9, 10, 11)};
-}
-[[gnu::always_inline]] inline NodeLine upper_halves(NodeLine a, NodeLine b)
-{
-    return {__builtin_shufflevector(a.v, b.v, 4, 5, 6, 7, 12, 13, 14, 15)};
-}
+alignas(64) inline constexpr Real momentum_lanes[8] = {0, 1, 1, 1, 0, 0, 0, 0};
+alignas(64) inline constexpr Real force_lanes[8] = {0, 0, 0, 0, 1, 1, 1, 0};
 
 /// The half of a line that slopes or moments are wanted of, twice.
 template <BoxRead Read>
@@ -64,12 +47,9 @@ template <BoxRead Read>
 /// +1, or -1 in the lanes of axes that are reflected; `first` is the lane of the x component.
 inline NodeLine signs(const BoxPart& part, int first)
 {
-    NodeLine line(Real(1));
-    for (int a = 0; a < 3; ++a) {
-        line.v[first + a] = part.axis[a].sign;
-        line.v[4 + a] = part.axis[a].sign;
-    }
-    return line;
+    Real sign[8] = {1, 1, 1, 1, 1, 1, 1, 1};
+    for (int a = 0; a < 3; ++a) sign[first + a] = sign[4 + a] = part.axis[a].sign;
+    return NodeLine::load(sign);
 }
 
 /// Coefficient of slopes and moments.
@@ -88,7 +68,7 @@ template <bool Affine>
 }
 } // namespace detail
 
-/// Read box i; `node` is its lowest one in the reach tile. Line n goes to out[8 n].
+/// Read box i; `node` is its lowest one in the reach tile. Line n goes to out[n].
 ///
 /// A function of its own for every number of nodes: inlined side by side their common parts would be computed before
 /// the choice, and spilled.
@@ -98,16 +78,17 @@ template <BoxRead Read, int X, int Y, int Z>
     using detail::halves;
     constexpr bool values = Read == BoxRead::values, affine = Read == BoxRead::affine;
     const NodeLine zero(Real(0));
-    NodeLine z_weight[Z], z_both[Z], y_weight[Y], y_both[Y];
+    Lanes z_weight[Z], y_weight[Y];
+    NodeLine z_both[Z], y_both[Y];
     for (int k = 0; k < Z; ++k) {
-        z_weight[k] = NodeLine(w.weight[2][k][i]);
+        z_weight[k] = Lanes(w.weight[2][k][i]);
         if constexpr (affine) z_both[k] = detail::slope_and_moment(w, 2, k, i);
-        if constexpr (!affine && !values) z_both[k] = halves(z_weight[k], NodeLine(w.slope[2][k][i]));
+        if constexpr (!affine && !values) z_both[k] = halves(NodeLine(z_weight[k]), NodeLine(w.slope[2][k][i]));
     }
     for (int j = 0; j < Y; ++j) {
-        y_weight[j] = NodeLine(w.weight[1][j][i]);
+        y_weight[j] = Lanes(w.weight[1][j][i]);
         if constexpr (affine) y_both[j] = detail::slope_and_moment(w, 1, j, i);
-        if constexpr (!affine && !values) y_both[j] = halves(NodeLine(w.slope[1][j][i]), y_weight[j]);
+        if constexpr (!affine && !values) y_both[j] = halves(NodeLine(w.slope[1][j][i]), NodeLine(y_weight[j]));
     }
     // Of the slopes: `yz` holds value and slope along z of the wanted half, then slopes along y and z.
     NodeLine value = zero, x = zero, y = zero, yz = zero;
@@ -130,20 +111,20 @@ template <BoxRead Read, int X, int Y, int Z>
                 yz_a += y_both[b] * yz_b;
             }
         }
-        const NodeLine x_weight(w.weight[0][a][i]);
+        const Lanes x_weight(w.weight[0][a][i]);
         value += x_weight * value_a;
         if constexpr (affine) x += detail::slope_and_moment(w, 0, a, i) * value_a;
-        if constexpr (!affine && !values) x += NodeLine(w.slope[0][a][i]) * value_a;
+        if constexpr (!affine && !values) x += Lanes(w.slope[0][a][i]) * value_a;
         if constexpr (affine) y += x_weight * y_a;
         if constexpr (!values) yz += x_weight * yz_a;
     }
     out[0] = value;
-    if constexpr (!values) out[8] = x;
+    if constexpr (!values) out[1] = x;
     if constexpr (affine) {
-        out[16] = y;
-        out[24] = yz;
+        out[2] = y;
+        out[3] = yz;
     } else if constexpr (!values) {
-        out[16] = yz;
+        out[2] = yz;
     }
 }
 
@@ -154,7 +135,7 @@ inline constexpr std::array gather_walks{
     gather_box<Read, 3, 2, 2>, gather_box<Read, 3, 2, 3>, gather_box<Read, 3, 3, 2>, gather_box<Read, 3, 3, 3>};
 
 /// Add what the part of a cut box reads; `tile` is the motion tile of its leaf. Line n is
-/// added to out[8 n].
+/// added to out[n].
 template <BoxRead Read>
 void gather_part(const BoxPart& part, const grid::NodeMotion* tile, NodeLine* out)
 {
@@ -166,7 +147,7 @@ void gather_part(const BoxPart& part, const grid::NodeMotion* tile, NodeLine* ou
         NodeLine line = NodeLine::load(tile[part.node + grid::tile_index(n[0], n[1], n[2])].velocity.data());
         if constexpr (affine) line = detail::wanted_half<Read>(line);
         const Real w[3] = {part.axis[0].weight[n[0]], part.axis[1].weight[n[1]], part.axis[2].weight[n[2]]};
-        sum[0] += NodeLine(w[0] * w[1] * w[2]) * line;
+        sum[0] += Lanes(w[0] * w[1] * w[2]) * line;
         for (int a = 0; a < 3; ++a) {
             const Real across = w[(a + 1) % 3] * w[(a + 2) % 3];
             const NodeLine slope(across * part.axis[a].slope[n[a]]);
@@ -178,13 +159,13 @@ void gather_part(const BoxPart& part, const grid::NodeMotion* tile, NodeLine* ou
         for (NodeLine& line : sum) line *= detail::signs(part, 0);
     out[0] += sum[0];
     if constexpr (Read == BoxRead::values) return;
-    out[8] += sum[1];
+    out[1] += sum[1];
     if constexpr (affine) {
-        out[16] += sum[2];
-        out[24] += sum[3];
+        out[2] += sum[2];
+        out[3] += sum[3];
     } else {
-        out[16] += Read == BoxRead::change_slopes ? detail::upper_halves(sum[2], sum[3])
-                                                  : detail::lower_halves(sum[2], sum[3]);
+        out[2] += Read == BoxRead::change_slopes ? detail::upper_halves(sum[2], sum[3])
+                                                 : detail::lower_halves(sum[2], sum[3]);
     }
 }
 
@@ -200,22 +181,23 @@ template <bool Affine, BoxGive Give, int X, int Y, int Z>
 [[gnu::noinline]] void scatter_box(const BoxWeights& w, int i, const GiftLines& gift, grid::NodeSum* node)
 {
     constexpr bool slopes = Affine || Give == BoxGive::all;
-    NodeLine z_weight[Z], z_slope[Z], y_weight[Y], y_slope[Y];
+    Lanes z_weight[Z], y_weight[Y];
+    NodeLine z_slope[Z], y_slope[Y];
     for (int k = 0; k < Z; ++k) {
-        z_weight[k] = NodeLine(w.weight[2][k][i]);
+        z_weight[k] = Lanes(w.weight[2][k][i]);
         if constexpr (slopes) z_slope[k] = detail::scatter_coefficient<Affine>(w, 2, k, i);
     }
     for (int j = 0; j < Y; ++j) {
-        y_weight[j] = NodeLine(w.weight[1][j][i]);
+        y_weight[j] = Lanes(w.weight[1][j][i]);
         if constexpr (slopes) y_slope[j] = detail::scatter_coefficient<Affine>(w, 1, j, i);
     }
     for (int a = 0; a < X; ++a) {
-        const NodeLine x_weight(w.weight[0][a][i]);
+        const Lanes x_weight(w.weight[0][a][i]);
         NodeLine base_a, y_a, z_a;
         if constexpr (Affine)
             base_a = x_weight * gift.base + detail::scatter_coefficient<Affine>(w, 0, a, i) * gift.slope[0];
         else if constexpr (slopes)
-            base_a = detail::halves(x_weight, detail::scatter_coefficient<Affine>(w, 0, a, i)) * gift.base;
+            base_a = detail::halves(NodeLine(x_weight), detail::scatter_coefficient<Affine>(w, 0, a, i)) * gift.base;
         else
             base_a = x_weight * gift.base;
         if constexpr (slopes) {
@@ -255,16 +237,16 @@ inline void scatter_part(const BoxPart& part, const BoxGift& gift, grid::NodeSum
         base *= sign;
         for (NodeLine& line : slope) line *= sign;
     }
-    const NodeLine momentum(detail::momentum_lanes), force(detail::force_lanes);
+    const NodeLine momentum = NodeLine::load(detail::momentum_lanes), force = NodeLine::load(detail::force_lanes);
     for (int corner = 0; corner < 8; ++corner) {
         const int n[3] = {corner >> 2, corner >> 1 & 1, corner & 1};
         const Real w[3] = {part.axis[0].weight[n[0]], part.axis[1].weight[n[1]], part.axis[2].weight[n[2]]};
         Real* target = &tile[part.node + grid::tile_index(n[0], n[1], n[2])].mass;
-        NodeLine line = NodeLine::load(target) + NodeLine(w[0] * w[1] * w[2]) * base;
+        NodeLine line = NodeLine::load(target) + Lanes(w[0] * w[1] * w[2]) * base;
         for (int a = 0; a < 3; ++a) {
             const Real across = w[(a + 1) % 3] * w[(a + 2) % 3];
-            line += (momentum * NodeLine(across * w[a] * part.axis[a].arm[n[a]]) +
-                     force * NodeLine(across * part.axis[a].slope[n[a]])) *
+            line += (Lanes(across * w[a] * part.axis[a].arm[n[a]]) * momentum +
+                     Lanes(across * part.axis[a].slope[n[a]]) * force) *
                     slope[a];
         }
         line.store(target);

@@ -11,8 +11,8 @@ struct BoxStage
 {
     static constexpr bool affine = T == Transfer::apic;
     static constexpr int lines = affine ? 4 : 2;
-    alignas(64) Real row[lines][8][8]; // [line][quantity][particle]
-    NodeLine line[lines][8];
+    alignas(64) Real row[lines][8][Lanes::lanes]; // [line][quantity][particle]
+    NodeLine line[Lanes::lanes][lines];
 
     /// Zero all but what `all` or the momentum alone writes; with APIC no force follows the base line.
     explicit BoxStage(BoxGive give)
@@ -20,7 +20,7 @@ struct BoxStage
         for (int n = 0; n < lines; ++n)
             for (int q = 0; q < 8; ++q)
                 if (give == BoxGive::momentum || q % 4 == 3 || (affine && (q == 0 || (n == 0 && q >= 4))))
-                    NodeLine(Real(0)).store(row[n][q]);
+                    Lanes(Real(0)).store(row[n][q]);
     }
 
     Real* mass() { return row[0][0]; }
@@ -37,16 +37,19 @@ struct BoxStage
     void turn()
     {
         for (int n = 0; n < lines; ++n) {
-            for (int q = 0; q < 8; ++q) line[n][q] = NodeLine::load(row[n][q]);
-            core::transpose(line[n]);
+            Lanes quantity[8];
+            for (int q = 0; q < 8; ++q) quantity[q] = Lanes::load(row[n][q]);
+            lanes_to_lines(quantity, [&](int i, int place, const Lanes& piece) {
+                line[i][n].part[place / NodeLine::piece] = piece;
+            });
         }
     }
 
     GiftLines of(int i) const
     {
-        if constexpr (affine) return {line[0][i], {line[1][i], line[2][i], line[3][i]}};
-        const NodeLine zero(Real(0)), both = line[1][i];
-        return {line[0][i], {zero, detail::lower_halves(zero, both), detail::halves(zero, both)}};
+        if constexpr (affine) return {line[i][0], {line[i][1], line[i][2], line[i][3]}};
+        const NodeLine zero(Real(0)), both = line[i][1];
+        return {line[i][0], {zero, detail::lower_halves(zero, both), detail::halves(zero, both)}};
     }
 
     BoxGift gift(int i) const

@@ -17,15 +17,15 @@ void stage_boxes(const LawTable& laws, Real mean_pressure, const particles::Part
 {
     stage_momentum<T>(particles, begin, count, stage);
     load(particles.mass, begin, count).store(stage.mass());
-    Lanes volume = load(particles.rest_volume, begin, count);
-    if (laws.any_decohesion && !particles.cracks.empty()) detail::reduce_to_solid(particles, begin, count, volume);
-    volume *= load(particles.volume_ratio, begin, count);
-    const LaneMask averaged = law_lanes(laws, particles, begin, count).averaged & intact(particles, begin, count) &
+    Given given = read_given<Formulation::updated>(particles, begin, count);
+    if (laws.any_decohesion && !particles.cracks.empty())
+        detail::reduce_to_solid(particles, begin, count, given.volume);
+    const LaneMask averaged = pressure_lanes(laws, particles, begin, count) &
                               present<Formulation::updated>(Visitors::residents, particles, begin, count);
-    const auto stress = load_all<core::Sym<Lanes>>(particles.stress, begin, count);
-    const core::Mat<Lanes> flux = detail::volume_stress(volume, stress, averaged, mean_pressure);
-    for (std::size_t b = 0; b < 3; ++b)
-        for (std::size_t a = 0; a < 3; ++a) (-flux.m[3 * a + b]).store(stage.flux(a, b));
+    const core::Sym<Lanes> flux = detail::volume_stress(given.volume, given.stress, averaged, mean_pressure);
+    for (int b = 0; b < 3; ++b)
+        for (int a = 0; a < 3; ++a)
+            (-flux(a, b)).store(stage.flux(static_cast<std::size_t>(a), static_cast<std::size_t>(b)));
     stage.turn();
 }
 
@@ -61,8 +61,7 @@ void scatter_leaf_with(const BoxCutter& cutter, const LawTable& laws, const part
     const std::uint32_t* start = levels.cell_start.data() + leaf * grid::leaf_cells;
     for (int c = 0; c < grid::leaf_cells; ++c) {
         if (start[c] == start[c + 1]) continue;
-        CellPressure pressure;
-        add_pressure(Visitors::residents, laws, particles, start[c], start[c + 1], pressure);
+        const CellPressure pressure = pressure_of(Visitors::residents, laws, particles, start[c], start[c + 1]);
         for (std::size_t p = start[c]; p < start[c + 1]; p += Lanes::lanes) {
             const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, start[c + 1] - p));
             BoxStage<T> stage(BoxGive::all);

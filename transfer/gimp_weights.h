@@ -46,7 +46,7 @@ inline BoxFrame box_frame(const PassOptions& options, const grid::Levels& levels
 /// Weights of a chunk of boxes, one array entry per particle.
 struct BoxWeights
 {
-    static constexpr int lanes = 8;
+    static constexpr int lanes = Lanes::lanes;
     alignas(64) Real weight[3][3][lanes];  // [axis][node]
     alignas(64) Real slope[3][3][lanes];   // 1/mm
     alignas(64) Real arm[3][3][lanes];     // mm, node minus particle
@@ -116,7 +116,6 @@ template <bool Arms>
 [[gnu::always_inline]] inline void box_weights(const BoxFrame& frame, const particles::Particles& particles,
                                                std::size_t begin, int count, BoxWeights& weights)
 {
-    static_assert(BoxWeights::lanes >= Lanes::lanes);
     const Lanes one(Real(1)), zero(Real(0)), middle(Real(0.5));
     const auto [half, per_width] = detail::widths_of(frame, particles.size_level.data() + begin, count);
     const Lanes per_spacing(frame.per_spacing), spacing(frame.spacing);

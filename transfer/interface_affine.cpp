@@ -48,10 +48,13 @@ void affine_of_cell(const grid::Levels& levels, std::size_t leaf, const grid::Le
     }
 }
 
+/// One lane per corner.
+using CornerLanes = core::Pack<Real, 8>;
+
 /// Nine entries of m C for the eight corners.
 struct AffineSum
 {
-    NodeLanes entry[9];
+    CornerLanes entry[9];
 };
 
 template <Formulation F>
@@ -65,8 +68,9 @@ void add_cell(const CellFrame& frame, const Visit& visit, const particles::Parti
         for (int i = 0; i < count; ++i) {
             if (!here[i]) continue;
             const std::size_t q = p + static_cast<std::size_t>(i);
-            const NodeLanes w = NodeLanes(particles.mass[q]) * corner_weights(at.xi[i], at.eta[i], at.zeta[i]).w;
-            for (std::size_t n = 0; n < 9; ++n) sum.entry[n] += w * NodeLanes(particles.affine[n][q]);
+            const CornerLanes w =
+                CornerLanes(particles.mass[q]) * corner_weights(corners_from<8>(0), at.xi[i], at.eta[i], at.zeta[i]).w;
+            for (std::size_t n = 0; n < 9; ++n) sum.entry[n] += w * CornerLanes(particles.affine[n][q]);
         }
     }
 }
@@ -74,7 +78,7 @@ void add_cell(const CellFrame& frame, const Visit& visit, const particles::Parti
 AffineSum load_sum(const grid::CornerAffine& from)
 {
     AffineSum sum;
-    for (std::size_t n = 0; n < 9; ++n) sum.entry[n] = NodeLanes::load(from.entry[n].data());
+    for (std::size_t n = 0; n < 9; ++n) sum.entry[n] = CornerLanes::load(from.entry[n].data());
     return sum;
 }
 
@@ -149,7 +153,7 @@ void scatter_affine(const PassOptions& options, const particles::Particles& part
         for (std::size_t c = range.begin; c < range.end; ++c) {
             const std::uint32_t* start = levels.cell_start.data() + range.face->hanging.slot[c];
             AffineSum sum;
-            for (NodeLanes& entry : sum.entry) entry = NodeLanes(Real(0));
+            for (CornerLanes& entry : sum.entry) entry = CornerLanes(Real(0));
             add_cell<F>(cell_frame(leaf_frame(levels, leaf), cell_of(*range.face, c)),
                         {Visitors::residents, start[0], start[1]}, particles, sum);
             store_sum(sum, interface_of(levels, leaf).hanging.affine[c]);

@@ -12,9 +12,9 @@ namespace
 {
 /// Stored energy per volume [mJ/mm^3] for lanes: p^2 / (2 K) + J2 / (2 mu), as material::elastic_energy.
 template <class T>
-BlockLanes<T> stored(const SlotLaw<T>& law, const core::Sym<BlockLanes<T>>& stress)
+PartLanes<T> stored(const SlotLaw<T>& law, const core::Sym<PartLanes<T>>& stress)
 {
-    using V = BlockLanes<T>;
+    using V = PartLanes<T>;
     const V mean = core::trace(stress) * V(Real(1) / 3), half(Real(0.5));
     core::Sym<V> deviator = stress;
     for (int a = 0; a < 3; ++a) deviator[a] -= mean;
@@ -24,14 +24,14 @@ BlockLanes<T> stored(const SlotLaw<T>& law, const core::Sym<BlockLanes<T>>& stre
 
 /// Metal part of the volumes, and zero squeeze where a separated particle transmits nothing.
 template <class T>
-[[gnu::noinline]] void regard_cracks(const Context& context, const CellBlock<T>& block,
-                                     const particles::Particles& particles, int slot, BlockLanes<T>& volume,
-                                     BlockLanes<T>& squeeze)
+[[gnu::noinline]] void regard_cracks(const Context& context, const BlockPart<T>& part,
+                                     const particles::Particles& particles, int slot, PartLanes<T>& volume,
+                                     PartLanes<T>& squeeze)
 {
-    for (int i = 0; i < block.count; ++i) {
-        const auto cell = static_cast<std::size_t>(block.cell[static_cast<std::size_t>(i)]);
-        if (context.lattice.cracked[context.leaf * grid::leaf_cells + cell] == 0 || !block.has(i, slot)) continue;
-        const std::int32_t index = particles.crack[block.particle(i, slot)];
+    for (int i = 0; i < part.count(); ++i) {
+        const auto cell = static_cast<std::size_t>(part.cell(i));
+        if (context.lattice.cracked[context.leaf * grid::leaf_cells + cell] == 0 || !part.has(i, slot)) continue;
+        const std::int32_t index = particles.crack[part.particle(i, slot)];
         if (index < 0) continue;
         const core::Crack& crack = particles.cracks[static_cast<std::size_t>(index)];
         volume.v[i] *= static_cast<T>(solid_share(crack));
@@ -41,40 +41,49 @@ template <class T>
 
 /// Energy of the particles of one slot [mJ].
 template <class T>
-Real energy_of(const SlotLaw<T>& law, const BlockState<T>& state, int slot, const BlockLanes<T>& volume)
+Real energy_of(const SlotLaw<T>& law, const BlockPart<T>& part, const BlockState<T>& state, int slot,
+               const PartLanes<T>& volume)
 {
-    using V = BlockLanes<T>;
+    using V = PartLanes<T>;
     core::Sym<V> stress;
-    for (std::size_t n = 0; n < 6; ++n) stress.s[n] = load_slot<T>(state.stress[n], slot);
+    for (std::size_t n = 0; n < 6; ++n) stress.s[n] = part.load(state.stress[n], slot);
     return static_cast<Real>(core::sum(core::select(volume > V(T(0)), volume * stored(law, stress), V(T(0)))));
+}
+
+template <bool with_energy, class T>
+void survey_part(const Context& context, const particles::Particles& particles, const grid::NodeMotion* tile,
+                 const BlockPart<T>& part, const BlockState<T>& state, LatticeSurvey& survey)
+{
+    using V = PartLanes<T>;
+    V velocity[3][8], corner[3][8];
+    gather_corners(tile, part, velocity, corner);
+    Slopes<V> displacement[3];
+    for (int a = 0; a < 3; ++a) displacement[a] = slopes_at_slots(corner[a]);
+    SlotLaw<T> law[slots];
+    const int law_step = with_energy ? find_laws(context, part, particles, law) : 0;
+    const V zero(T(0));
+    for (int s = 0; s < slots; ++s) {
+        const core::Mat<V> f = deformation_at(displacement, s, context.per_spacing);
+        V volume = part.load(state.rest_volume, s);
+        V squeeze = core::select(volume > zero, cell_squeeze(f), zero);
+        if (!particles.cracks.empty()) regard_cracks(context, part, particles, s, volume, squeeze);
+        if constexpr (with_energy)
+            survey.elastic += energy_of(law[s * law_step], part, state, s, volume * core::determinant(f));
+        for (int i = 0; i < part.count(); ++i) {
+            // Not std::max, which drops a NaN; empty slots have squeeze 0.
+            if (std::isnan(survey.squeeze) || squeeze[i] <= static_cast<T>(survey.squeeze)) continue;
+            survey.squeeze = static_cast<Real>(squeeze[i]);
+            survey.worst = part.particle(i, s);
+        }
+    }
 }
 
 template <bool with_energy, class T>
 void survey_block(const Context& context, const particles::Particles& particles, const grid::NodeMotion* tile,
                   const CellBlock<T>& block, const BlockState<T>& state, LatticeSurvey& survey)
 {
-    using V = BlockLanes<T>;
-    V velocity[3][8], corner[3][8];
-    gather_corners(tile, block, velocity, corner);
-    Slopes<V> displacement[3];
-    for (int a = 0; a < 3; ++a) displacement[a] = slopes_at_slots(corner[a]);
-    SlotLaw<T> law[slots];
-    const int law_step = with_energy ? find_laws(context, block, particles, law) : 0;
-    const V zero(T(0));
-    for (int s = 0; s < slots; ++s) {
-        const core::Mat<V> f = deformation_at(displacement, s, context.per_spacing);
-        V volume = load_slot<T>(state.rest_volume, s);
-        V squeeze = core::select(volume > zero, cell_squeeze(f), zero);
-        if (!particles.cracks.empty()) regard_cracks(context, block, particles, s, volume, squeeze);
-        if constexpr (with_energy)
-            survey.elastic += energy_of(law[s * law_step], state, s, volume * core::determinant(f));
-        for (int i = 0; i < block.count; ++i) {
-            // Not std::max, which drops a NaN; empty slots have squeeze 0.
-            if (std::isnan(survey.squeeze) || squeeze[i] <= static_cast<T>(survey.squeeze)) continue;
-            survey.squeeze = static_cast<Real>(squeeze[i]);
-            survey.worst = block.particle(i, s);
-        }
-    }
+    for (int first = 0; first < block.count; first += part_lanes<T>)
+        survey_part<with_energy>(context, particles, tile, BlockPart<T>{block, first}, state, survey);
 }
 
 template <bool with_energy>

@@ -1,9 +1,8 @@
 #include "core/parallel.h"
-#include "transfer/cell_sum.h"
-#include "transfer/chunk.h"
 #include "transfer/gimp_passes.h"
 #include "transfer/interface_affine.h"
 #include "transfer/passes.h"
+#include "transfer/scatter_cell.h"
 #include "transfer/scatter_leaf.h"
 
 #include <algorithm>
@@ -13,6 +12,37 @@ namespace transfer
 {
 namespace
 {
+/// Update the velocity (and affine matrix) of a chunk; the velocity is returned.
+template <Transfer T>
+[[gnu::always_inline]] inline core::Vec<Lanes>
+remapped(const PassOptions& options, const CellFrame& frame, const CellField& field, const HangingSlopes* masters,
+         const core::Vec<Lanes>& x, LaneMask here, std::size_t p, int count, particles::Particles& particles)
+{
+    const LocalPosition<Lanes> at = local_position(frame, x);
+    core::Vec<Lanes> velocity;
+    core::Mat<Lanes> affine;
+    for (int a = 0; a < 3; ++a) {
+        const auto axis = static_cast<std::size_t>(a);
+        const Lanes old = load(particles.velocity[axis], p, count);
+        core::Vec<Lanes> slope{};
+        const Lanes grid_velocity = value_and_slopes(field, velocity_column + a, at, slope[0], slope[1], slope[2]);
+        Lanes fresh = grid_velocity;
+        if constexpr (T == Transfer::flip) {
+            fresh = old + value(field, change_column + a, at);
+            if (options.pic_fraction > 0) fresh += Lanes(options.pic_fraction) * (grid_velocity - fresh);
+        } else {
+            for (int b = 0; b < 3; ++b) affine(a, b) = Lanes(frame.per_spacing) * slope[b];
+        }
+        velocity[a] = core::select(here, fresh, old);
+        store(velocity[a], particles.velocity[axis], p, count);
+    }
+    if constexpr (T == Transfer::apic) {
+        if (masters != nullptr) affine = through_masters(*masters, affine, at, frame.per_spacing);
+        store_affine({p, count, here, affine}, particles);
+    }
+    return velocity;
+}
+
 /// Update the velocity (and affine matrix) of the particles [begin, end) that are served, and scatter their momentum.
 /// @param masters  of the cell's hanging corners; null if it has none
 template <Formulation F, Transfer T>
@@ -22,50 +52,23 @@ void remap_cell(const PassOptions& options, const CellFrame& frame, Visitors vis
 {
     CellField field;
     read_cell(motion + frame.node, field);
-    CellSum sum;
-    clear(sum);
-    for (std::size_t p = begin; p < end; p += Lanes::lanes) {
-        const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, end - p));
-        const auto x = load_all<core::Vec<Lanes>>(weight_position<F>(particles), p, count);
-        const LocalPosition<Lanes> at = local_position(frame, x);
-        const LaneMask here = present<F>(visitors, particles, p, count);
-        core::Mat<Lanes> affine;
-        for (int a = 0; a < 3; ++a) {
-            const auto axis = static_cast<std::size_t>(a);
-            const Lanes old = load(particles.velocity[axis], p, count);
-            core::Vec<Lanes> slope{};
-            const Lanes grid_velocity = value_and_slopes(field, velocity_column + a, at, slope[0], slope[1], slope[2]);
-            Lanes fresh = grid_velocity;
-            if constexpr (T == Transfer::flip) {
-                fresh = old + value(field, change_column + a, at);
-                if (options.pic_fraction > 0) fresh += Lanes(options.pic_fraction) * (grid_velocity - fresh);
-            } else {
-                for (int b = 0; b < 3; ++b) affine(a, b) = Lanes(frame.per_spacing) * slope[b];
-            }
-            store(core::select(here, fresh, old), particles.velocity[axis], p, count);
+    constexpr int group = 64;
+    Staged<group> staged;
+    for (std::size_t first = begin; first < end; first += group) {
+        const std::size_t last = std::min<std::size_t>(end, first + group);
+        for (std::size_t p = first; p < last; p += Lanes::lanes) {
+            const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
+            const int at = static_cast<int>(p - first);
+            const LaneMask here = present<F>(visitors, particles, p, count);
+            const auto x = load_all<core::Vec<Lanes>>(weight_position<F>(particles), p, count);
+            const core::Vec<Lanes> velocity = remapped<T>(options, frame, field, masters, x, here, p, count, particles);
+            stage_momentum(frame, x, load(particles.mass, p, count), velocity, at, staged);
+            for (int i = 0; i < count; ++i) staged.here[at + i] = here[i] ? 1 : 0;
         }
-        if constexpr (T == Transfer::apic) {
-            if (masters != nullptr) affine = through_masters(*masters, affine, at, frame.per_spacing);
-            store_affine({p, count, here, affine}, particles);
-        }
-        for (int i = 0; i < count; ++i) {
-            if (!here[i]) continue;
-            const std::size_t q = p + static_cast<std::size_t>(i);
-            const CornerWeights weights = corner_weights(at.xi[i], at.eta[i], at.zeta[i]);
-            const Real m = particles.mass[q];
-            add_momentum(weights, m * particles.velocity[0][q], m * particles.velocity[1][q],
-                         m * particles.velocity[2][q], sum);
-            if constexpr (T == Transfer::apic) {
-                const Real per_slope = m / frame.per_spacing;
-                add_affine(
-                    weights, at.xi[i], at.eta[i], at.zeta[i],
-                    [&](int a, int b) { return per_slope * particles.affine[static_cast<std::size_t>(3 * a + b)][q]; },
-                    sum);
-            }
-        }
+        add_staged<F, T, false, true>(frame, staged, static_cast<int>(last - first), particles, first, tile);
     }
-    write_cell(sum, frame.per_spacing, tile + frame.node);
 }
+
 /// Slopes between the masters of a cell's hanging corners; nothing if none hangs, and for FLIP.
 /// @param hanging  of the leaf
 template <Transfer T>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "transfer/cell_sum.h"
-#include "transfer/chunk.h"
+#include "transfer/given.h"
 #include "transfer/passes.h"
 
 namespace transfer
@@ -17,33 +17,34 @@ struct CellPressure
     Real mean() const { return volume > 0 ? pressure_volume / volume : Real(0); }
 };
 
-namespace detail
-{
-/// The quantities the node lanes broadcast, one array entry per particle of the chunk.
+/// What the node lanes broadcast, one entry per particle, up to Capacity of them.
+template <int Capacity>
 struct Staged
 {
-    static constexpr int lanes = Lanes::lanes;
-    alignas(64) Real xi[lanes], eta[lanes], zeta[lanes], mass[lanes];
-    alignas(64) Real momentum[3][lanes];
-    alignas(64) Real stress_volume[9][lanes];
-    LaneMask here;
+    alignas(64) Real xi[Capacity], eta[Capacity], zeta[Capacity], mass[Capacity];
+    alignas(64) Real momentum[3][Capacity];
+    alignas(64) Real stress_volume[9][Capacity]; // symmetric: the first six, as in core::Sym
+    std::uint8_t here[Capacity];                 // 1: is served
 };
 
-inline void store_matrix(const core::Mat<Lanes>& m, Real (*to)[Staged::lanes])
+namespace detail
 {
-    for (std::size_t n = 0; n < 9; ++n) m.m[n].store(to[n]);
+/// Place of V sigma, or V0 P, in Staged::stress_volume.
+template <Formulation F>
+constexpr int flux_place(int a, int b)
+{
+    return F == Formulation::total ? 3 * a + b : static_cast<int>(core::Sym<Real>::at(a, b));
 }
 
 /// V sigma, with the pressure replaced by the cell mean on `averaged` lanes.
-[[gnu::always_inline]] inline core::Mat<Lanes> volume_stress(Lanes volume, const core::Sym<Lanes>& stress,
+[[gnu::always_inline]] inline core::Sym<Lanes> volume_stress(Lanes volume, const core::Sym<Lanes>& stress,
                                                              LaneMask averaged, Real mean_pressure)
 {
     const Lanes mean = core::trace(stress) * Lanes(Real(1) / 3);
     const Lanes shift = core::select(averaged, Lanes(mean_pressure) - mean, Lanes(Real(0)));
-    core::Mat<Lanes> m;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) m(i, j) = volume * (i == j ? stress(i, j) + shift : stress(i, j));
-    return m;
+    core::Sym<Lanes> flux;
+    for (int n = 0; n < 6; ++n) flux[n] = volume * (n < 3 ? stress[n] + shift : stress[n]);
+    return flux;
 }
 
 /// V0 P = V0 J sigma F^{-T} = V0 sigma cof(F).
@@ -65,105 +66,137 @@ inline void reduce_to_solid(const particles::Particles& particles, std::size_t b
         if (crack >= 0) volume.v[i] *= solid_share(particles.cracks[static_cast<std::size_t>(crack)]);
     }
 }
-
-template <Formulation F, bool Plain>
-[[gnu::always_inline]] inline void stage(const CellFrame& frame, Visitors visitors, const LawTable& laws,
-                                         const CellPressure& pressure, const particles::Particles& particles,
-                                         std::size_t begin, int count, Staged& staged)
-{
-    const auto x = load_all<core::Vec<Lanes>>(weight_position<F>(particles), begin, count);
-    const LocalPosition<Lanes> at = local_position(frame, x);
-    at.xi.store(staged.xi);
-    at.eta.store(staged.eta);
-    at.zeta.store(staged.zeta);
-    const Lanes mass = load(particles.mass, begin, count);
-    mass.store(staged.mass);
-    for (std::size_t a = 0; a < 3; ++a) (mass * load(particles.velocity[a], begin, count)).store(staged.momentum[a]);
-    const auto stress = load_all<core::Sym<Lanes>>(particles.stress, begin, count);
-    Lanes volume = load(particles.rest_volume, begin, count);
-    if (!Plain && laws.any_decohesion && !particles.cracks.empty()) reduce_to_solid(particles, begin, count, volume);
-    if constexpr (F == Formulation::total) {
-        const auto f = load_all<core::Mat<Lanes>>(particles.deformation_gradient, begin, count);
-        store_matrix(volume_piola(volume, stress, f), staged.stress_volume);
-    } else {
-        const LawLanes law = law_lanes<Plain>(laws, particles, begin, count);
-        const LaneMask averaged = law.averaged & intact<Plain>(particles, begin, count);
-        volume *= load(particles.volume_ratio, begin, count);
-        store_matrix(volume_stress(volume, stress, averaged, pressure.mean()), staged.stress_volume);
-    }
-    staged.here = present<F, Plain>(visitors, particles, begin, count);
-}
-
-template <Transfer T>
-[[gnu::always_inline]] inline void add_particle(const CellFrame& frame, const Staged& staged, int i,
-                                                const particles::Particles& particles, std::size_t p, CellSum& sum)
-{
-    const CornerWeights weights = corner_weights(staged.xi[i], staged.eta[i], staged.zeta[i]);
-    sum.mass += NodeLanes(staged.mass[i]) * weights.w;
-    add_momentum(weights, staged.momentum[0][i], staged.momentum[1][i], staged.momentum[2][i], sum);
-    if constexpr (T == Transfer::apic) {
-        const Real per_slope = staged.mass[i] / frame.per_spacing;
-        add_affine(
-            weights, staged.xi[i], staged.eta[i], staged.zeta[i],
-            [&](int a, int b) { return per_slope * particles.affine[static_cast<std::size_t>(3 * a + b)][p]; }, sum);
-    }
-    add_force(
-        weights, [&](int a, int b) { return staged.stress_volume[3 * a + b][i]; }, sum);
-}
 } // namespace detail
 
-/// Add the volume and pressure of the particles [begin, end) that are served and take part in the average.
-template <bool Plain = false>
-inline void add_pressure(Visitors visitors, const LawTable& laws, const particles::Particles& particles,
-                         std::size_t begin, std::size_t end, CellPressure& pressure)
+/// Mass and momentum of a chunk, from entry `at` on.
+template <int Capacity>
+[[gnu::always_inline]] inline void stage_momentum(const CellFrame& frame, const core::Vec<Lanes>& position, Lanes mass,
+                                                  const core::Vec<Lanes>& velocity, int at, Staged<Capacity>& staged)
 {
-    for (std::size_t p = begin; p < end; p += Lanes::lanes) {
-        const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, end - p));
-        const LaneMask counts = present<Formulation::updated, Plain>(visitors, particles, p, count) &
-                                intact<Plain>(particles, p, count) &
-                                law_lanes<Plain>(laws, particles, p, count).averaged;
-        const Lanes volume = load(particles.rest_volume, p, count) * load(particles.volume_ratio, p, count);
-        const Lanes mean = (load(particles.stress[0], p, count) + load(particles.stress[1], p, count) +
-                            load(particles.stress[2], p, count)) *
-                           Lanes(Real(1) / 3);
-        pressure.volume += core::sum(core::select(counts, volume, Lanes(Real(0))));
-        pressure.pressure_volume += core::sum(core::select(counts, volume * mean, Lanes(Real(0))));
+    const LocalPosition<Lanes> local = local_position(frame, position);
+    local.xi.store(staged.xi + at);
+    local.eta.store(staged.eta + at);
+    local.zeta.store(staged.zeta + at);
+    mass.store(staged.mass + at);
+    for (int a = 0; a < 3; ++a) (mass * velocity[a]).store(staged.momentum[a] + at);
+}
+
+/// A chunk, from entry `at` on.
+/// @param averaged  lanes that take the cell's mean pressure; updated formulation only
+template <Formulation F, int Capacity>
+[[gnu::always_inline]] inline void stage(const CellFrame& frame, const Given& given, LaneMask averaged,
+                                         Real mean_pressure, int at, Staged<Capacity>& staged)
+{
+    stage_momentum(frame, given.position, given.mass, given.velocity, at, staged);
+    if constexpr (F == Formulation::total) {
+        const core::Mat<Lanes> flux = detail::volume_piola(given.volume, given.stress, given.deformation);
+        for (std::size_t n = 0; n < 9; ++n) flux.m[n].store(staged.stress_volume[n] + at);
+    } else {
+        const core::Sym<Lanes> flux = detail::volume_stress(given.volume, given.stress, averaged, mean_pressure);
+        for (std::size_t n = 0; n < 6; ++n) flux.s[n].store(staged.stress_volume[n] + at);
     }
 }
 
 namespace detail
 {
-template <Formulation F, Transfer T, bool Plain>
-[[gnu::noinline]] void scatter_served(const CellFrame& frame, Visitors visitors, const LawTable& laws,
-                                      const particles::Particles& particles, std::size_t begin, std::size_t end,
-                                      grid::NodeSum* tile)
+template <Transfer T, int N, int Capacity>
+[[gnu::always_inline]] inline CornerWeights<N>
+add_motion(const CellFrame& frame, const Corners<N>& corners, const Staged<Capacity>& staged, int i,
+           const particles::Particles& particles, std::size_t p, CellSum<N>& sum)
 {
-    CellPressure pressure;
-    if constexpr (F == Formulation::updated) add_pressure<Plain>(visitors, laws, particles, begin, end, pressure);
-    CellSum sum;
-    clear(sum);
-    for (std::size_t p = begin; p < end; p += Lanes::lanes) {
-        const int count = Plain ? Lanes::lanes : static_cast<int>(std::min<std::size_t>(Lanes::lanes, end - p));
-        Staged staged;
-        // Two copies: without a tail the compiler drops every test of `count`.
-        Plain || count == Lanes::lanes
-            ? stage<F, Plain>(frame, visitors, laws, pressure, particles, p, Lanes::lanes, staged)
-            : stage<F, Plain>(frame, visitors, laws, pressure, particles, p, count, staged);
-        for (int i = 0; i < count; ++i)
-            if (Plain || F == Formulation::total || staged.here[i])
-                add_particle<T>(frame, staged, i, particles, p + static_cast<std::size_t>(i), sum);
+    const CornerWeights<N> weights = corner_weights(corners, staged.xi[i], staged.eta[i], staged.zeta[i]);
+    add_momentum(weights, staged.momentum[0][i], staged.momentum[1][i], staged.momentum[2][i], sum);
+    if constexpr (T == Transfer::apic) {
+        const Real per_slope = staged.mass[i] / frame.per_spacing;
+        add_affine(
+            corners, weights, staged.xi[i], staged.eta[i], staged.zeta[i],
+            [&](int a, int b) { return per_slope * particles.affine[static_cast<std::size_t>(3 * a + b)][p]; }, sum);
     }
-    write_cell(sum, frame.per_spacing, tile + frame.node);
+    return weights;
 }
 } // namespace detail
 
+/// Add the first `count` staged particles, `begin` the first of them, to the nodes: mass, momentum and force, or
+/// momentum alone.
+template <Formulation F, Transfer T, bool All, bool Momentum = false, int Capacity>
+[[gnu::always_inline]] inline void add_staged(const CellFrame& frame, const Staged<Capacity>& staged, int count,
+                                              const particles::Particles& particles, std::size_t begin,
+                                              grid::NodeSum* tile)
+{
+    for (int first = 0; first < 8; first += node_lanes) {
+        const Corners<node_lanes> corners = corners_from<node_lanes>(first);
+        CellSum<node_lanes> sum;
+        clear(sum);
+        for (int i = 0; i < count; ++i) {
+            if (!All && staged.here[i] == 0) continue;
+            const CornerWeights<node_lanes> weights =
+                detail::add_motion<T>(frame, corners, staged, i, particles, begin + static_cast<std::size_t>(i), sum);
+            if constexpr (Momentum) continue;
+            sum.mass += NodeLanes(staged.mass[i]) * weights.w;
+            add_force(
+                weights, [&](int a, int b) { return staged.stress_volume[detail::flux_place<F>(a, b)][i]; }, sum);
+        }
+        write_sums(sum, first, frame.per_spacing, tile + frame.node);
+    }
+}
+
+/// Add the volume and pressure of a chunk to the cell's.
+/// @param counts  lanes that take part in the average
+[[gnu::always_inline]] inline void add_pressure(const Given& given, LaneMask counts, CellPressure& pressure)
+{
+    const Lanes mean = core::trace(given.stress) * Lanes(Real(1) / 3);
+    pressure.volume += core::sum(core::select(counts, given.volume, Lanes(Real(0))));
+    pressure.pressure_volume += core::sum(core::select(counts, given.volume * mean, Lanes(Real(0))));
+}
+
+/// Lanes that take the cell's mean pressure, if they are served.
+[[gnu::always_inline]] inline LaneMask pressure_lanes(const LawTable& laws, const particles::Particles& particles,
+                                                      std::size_t begin, int count)
+{
+    return intact(particles, begin, count) & law_lanes(laws, particles, begin, count).averaged;
+}
+
+/// Mean pressure of the particles [begin, end) that are served and take part in the average.
+inline CellPressure pressure_of(Visitors visitors, const LawTable& laws, const particles::Particles& particles,
+                                std::size_t begin, std::size_t end)
+{
+    CellPressure pressure;
+    for (std::size_t p = begin; p < end; p += Lanes::lanes) {
+        const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, end - p));
+        add_pressure(read_given<Formulation::updated>(particles, p, count),
+                     present<Formulation::updated>(visitors, particles, p, count) &
+                         pressure_lanes(laws, particles, p, count),
+                     pressure);
+    }
+    return pressure;
+}
+
 /// Scatter the particles [begin, end) that are served.
 template <Formulation F, Transfer T>
-void scatter_cell(const CellFrame& frame, Visitors visitors, const LawTable& laws,
-                  const particles::Particles& particles, std::size_t begin, std::size_t end, grid::NodeSum* tile)
+[[gnu::noinline]] void scatter_cell(const CellFrame& frame, Visitors visitors, const LawTable& laws,
+                                    const particles::Particles& particles, std::size_t begin, std::size_t end,
+                                    grid::NodeSum* tile)
 {
-    visitors == Visitors::residents&& is_plain(particles, begin, end)
-        ? detail::scatter_served<F, T, true>(frame, visitors, laws, particles, begin, end, tile)
-        : detail::scatter_served<F, T, false>(frame, visitors, laws, particles, begin, end, tile);
+    CellPressure pressure;
+    if constexpr (F == Formulation::updated) pressure = pressure_of(visitors, laws, particles, begin, end);
+    constexpr int group = 64;
+    Staged<group> staged;
+    for (std::size_t first = begin; first < end; first += group) {
+        const std::size_t last = std::min<std::size_t>(end, first + group);
+        for (std::size_t p = first; p < last; p += Lanes::lanes) {
+            const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
+            const int at = static_cast<int>(p - first);
+            Given given = read_given<F>(particles, p, count);
+            if (laws.any_decohesion && !particles.cracks.empty())
+                detail::reduce_to_solid(particles, p, count, given.volume);
+            LaneMask averaged{};
+            if constexpr (F == Formulation::updated) averaged = pressure_lanes(laws, particles, p, count);
+            stage<F>(frame, given, averaged, pressure.mean(), at, staged);
+            const LaneMask here = present<F>(visitors, particles, p, count);
+            for (int i = 0; i < count; ++i) staged.here[at + i] = here[i] ? 1 : 0;
+        }
+        add_staged<F, T, F == Formulation::total>(frame, staged, static_cast<int>(last - first), particles, first,
+                                                  tile);
+    }
 }
 } // namespace transfer

@@ -64,19 +64,19 @@ inline void enlist(const Context& context, const SeparationInput& input, const c
     sliders.out[i] = &out;
 }
 
-/// Find the block's particles with decohesion state and ask for their cracks: these lie anywhere in the side table, and
+/// Find the part's particles with decohesion state and ask for their cracks: these lie anywhere in the side table, and
 /// waiting for one after the other costs more than the law.
 template <class T>
-int find_cracks(const Context& context, const CellBlock<T>& block, const particles::Particles& particles,
+int find_cracks(const Context& context, const BlockPart<T>& part, const particles::Particles& particles,
                 SetAside* aside)
 {
     int count = 0;
-    for (int i = 0; i < block.count; ++i) {
-        const auto cell = static_cast<std::size_t>(block.cell[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < part.count(); ++i) {
+        const auto cell = static_cast<std::size_t>(part.cell(i));
         if (context.lattice.cracked[context.leaf * grid::leaf_cells + cell] == 0) continue;
         for (int s = 0; s < slots; ++s) {
-            if (!block.has(i, s)) continue;
-            const std::size_t p = block.particle(i, s);
+            if (!part.has(i, s)) continue;
+            const std::size_t p = part.particle(i, s);
             if (particles.crack[p] < 0) continue;
             aside[count].lane = i;
             aside[count].slot = s;
@@ -90,12 +90,12 @@ int find_cracks(const Context& context, const CellBlock<T>& block, const particl
     return count;
 }
 
-/// Call the law of separation for the block's particles with decohesion state, before the others change any stress.
+/// Call the law of separation for the part's particles with decohesion state, before the others change any stress.
 template <class T>
-[[gnu::noinline]] int set_cracks_aside(const Context& context, const CellBlock<T>& block, const BlockState<T>& state,
+[[gnu::noinline]] int set_cracks_aside(const Context& context, const BlockPart<T>& part, const BlockState<T>& state,
                                        const Work<T>& work, particles::Particles& particles, SetAside* aside)
 {
-    const int count = find_cracks(context, block, particles, aside);
+    const int count = find_cracks(context, part, particles, aside);
     Sliders sliders;
     for (int n = 0; n < count; ++n) {
         SetAside& out = aside[n];
@@ -105,18 +105,17 @@ template <class T>
         const auto f = deformation_of_lane(work.displacement, s, i, context.per_spacing);
         const Real volume = static_cast<Real>(work.volume[s][i]);
         core::Crack& crack = particles.cracks[static_cast<std::size_t>(particles.crack[p])];
-        SeparationInput input{
-            {stress_at(state, i, s),
-             {},
-             {},
-             static_cast<Real>(state.eq_plastic_strain[static_cast<std::size_t>(s)][static_cast<std::size_t>(i)]),
-             context.options.dt,
-             context.options.time},
-            volume,
-            volume / particles.rest_volume[p],
-            &f,
-            particles.material[p],
-            context.per_spacing};
+        SeparationInput input{{stress_at(state, part.lane(i), s),
+                               {},
+                               {},
+                               static_cast<Real>(state.eq_plastic_strain[static_cast<std::size_t>(s)][part.lane(i)]),
+                               context.options.dt,
+                               context.options.time},
+                              volume,
+                              volume / particles.rest_volume[p],
+                              &f,
+                              particles.material[p],
+                              context.per_spacing};
         if (crack.damage >= 1) {
             enlist(context, input, gradient, crack, out, sliders);
             continue;

@@ -48,33 +48,46 @@ private:
 using Packs = testing::Types<Pack<double, 8>, Pack<float, 16>, Pack<double, 4>, Pack<float, 8>, Pack<double, 2>>;
 TYPED_TEST_SUITE(Simd, Packs);
 
-template <class P>
-class SimdRows : public Simd<P>
+/// M vectors of type P, with blocks of M x M.
+template <class P, int M>
+struct Square
+{
+    using Row = P;
+    static constexpr int side = M;
+};
+
+template <class S>
+class SimdRows : public Simd<typename S::Row>
 {};
-using Rows = testing::Types<Pack<double, 8>, Pack<float, 16>, Pack<float, 8>>;
-TYPED_TEST_SUITE(SimdRows, Rows);
+using Squares = testing::Types<Square<Pack<double, 8>, 8>, Square<Pack<float, 16>, 8>, Square<Pack<float, 8>, 8>,
+                               Square<Pack<double, 4>, 4>, Square<Pack<float, 8>, 4>, Square<Pack<float, 4>, 4>,
+                               Square<Pack<double, 2>, 2>>;
+TYPED_TEST_SUITE(SimdRows, Squares);
 } // namespace
 
-// Entry (i, j) of every 8x8 block goes to (j, i) of the same block.
-TYPED_TEST(SimdRows, transpose_exchanges_rows_and_columns_of_every_block_of_eight)
+// Entry (i, j) of every block goes to (j, i) of the same block.
+TYPED_TEST(SimdRows, transpose_exchanges_rows_and_columns_of_every_block)
 {
-    using T = typename Traits<TypeParam>::Number;
-    TypeParam rows[8];
-    for (int i = 0; i < 8; ++i)
-        for (int j = 0; j < TypeParam::lanes; ++j) rows[i].v[j] = static_cast<T>(100 * i + j);
+    using Row = typename TypeParam::Row;
+    using T = typename Traits<Row>::Number;
+    constexpr int side = TypeParam::side;
+    Row rows[side];
+    for (int i = 0; i < side; ++i)
+        for (int j = 0; j < Row::lanes; ++j) rows[i].v[j] = static_cast<T>(100 * i + j);
     core::transpose(rows);
-    for (int i = 0; i < 8; ++i)
-        for (int j = 0; j < TypeParam::lanes; ++j)
-            EXPECT_EQ(rows[i][j], static_cast<T>(100 * (j % 8) + j / 8 * 8 + i)) << i << ' ' << j;
+    for (int i = 0; i < side; ++i)
+        for (int j = 0; j < Row::lanes; ++j)
+            EXPECT_EQ(rows[i][j], static_cast<T>(100 * (j % side) + j / side * side + i)) << i << ' ' << j;
 }
 
 TYPED_TEST(SimdRows, transposing_twice_changes_no_bit)
 {
-    using T = typename Traits<TypeParam>::Number;
-    TypeParam rows[8], twice[8];
-    for (TypeParam& row : rows) row = this->random();
-    rows[3].v[5] = -T(0);
-    rows[6].v[1] = std::numeric_limits<T>::quiet_NaN();
+    using Row = typename TypeParam::Row;
+    using T = typename Traits<Row>::Number;
+    Row rows[TypeParam::side], twice[TypeParam::side];
+    for (Row& row : rows) row = this->random();
+    rows[0].v[1] = -T(0);
+    rows[1].v[0] = std::numeric_limits<T>::quiet_NaN();
     std::copy(std::begin(rows), std::end(rows), std::begin(twice));
     core::transpose(twice);
     core::transpose(twice);
