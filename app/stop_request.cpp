@@ -1,7 +1,5 @@
 #include "app/stop_request.h"
 
-#include "core/error.h"
-
 #include <csignal>
 #include <cstdlib>
 #include <sstream>
@@ -30,27 +28,22 @@ bool stop_requested()
     return requested != 0;
 }
 
-double parse_walltime(const std::string& text)
+std::optional<double> parse_walltime(const std::string& text)
 {
-    const auto bad = [&] {
-        return core::InputError("--walltime '" + text +
-                                "': expected seconds (90), minutes (45min), hours (2h) or 3:50:00");
-    };
     std::istringstream in(text);
-    double total = 0;
     double part = 0;
-    if (!(in >> part) || part < 0) throw bad();
-    total = part;
+    if (!(in >> part) || part < 0) return std::nullopt;
+    double total = part;
     while (in.peek() == ':') {
         in.get();
-        if (!(in >> part) || part < 0) throw bad();
+        if (!(in >> part) || part < 0) return std::nullopt;
         total = 60 * total + part;
     }
     std::string unit;
     in >> unit;
     if (unit == "min") return 60 * total;
     if (unit == "h") return 3600 * total;
-    if (!unit.empty() && unit != "s") throw bad();
+    if (!unit.empty() && unit != "s") return std::nullopt;
     return total;
 }
 } // namespace app

@@ -1,6 +1,7 @@
 /// Ways to end a run early with a checkpoint: SIGINT, SIGTERM, SIGUSR1, and the wall-time limit.
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace app
@@ -9,7 +10,6 @@ namespace app
 void catch_stop_signals();
 bool stop_requested();
 
-/// Seconds of "90", "45min", "2h", "50:00" (mm:ss) or "3:50:00".
-/// @error core::InputError
-double parse_walltime(const std::string& text);
+/// Seconds of "90", "45min", "2h", "50:00" (mm:ss) or "3:50:00"; nothing of any other text.
+std::optional<double> parse_walltime(const std::string& text);
 } // namespace app

@@ -13,6 +13,11 @@ inline constexpr int time_step_interval = 32;
 /// next coarser one from 0.72 on (methods.md A.7).
 inline constexpr Real subcycled_step_share = 0.6;
 
+/// A step below this share of that at rest ends the run: metal is squeezed to a thousandth of its width somewhere, or
+/// thrown away at a thousand times the speed of sound. Neither means anything, and the rest of the run would take
+/// a thousand times as long. (The worst run of the challenge specimen came to a twenty-fifth.)
+inline constexpr Real smallest_step_share = 1e-3;
+
 /// Steps of the finest level in one of the coarsest.
 inline int substeps(const Problem& problem)
 {
@@ -26,6 +31,8 @@ inline int substeps(const Problem& problem)
 /// still transmit force (damage < 1), and |v| = 0; updated formulation s = 1 and |v| the largest particle speed.
 /// With sub-cycling a level is held to its own step, 2^(l_max - l) dt, and the share is subcycled_step_share.
 /// @return  ms
-/// @error   core::NumericalError if a velocity or deformation is not finite, naming the particle
+/// @error   core::NumericalError if a velocity or deformation is not finite, or the step is below smallest_step_share
+/// of
+///          cfl h_f / c_d, naming the particle
 Real stable_time_step(const Problem& problem, const Prepared& prepared, const State& state);
 } // namespace solver

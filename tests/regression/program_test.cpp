@@ -130,6 +130,18 @@ TEST_F(Program, a_preview_run_writes_every_file)
     EXPECT_GT(test::contents(below("out") / "report.html").size(), 1000U);
 }
 
+TEST_F(Program, a_wall_time_that_is_none_is_bad_input)
+{
+    for (const char* text : {"abc", "-5", "3 days", ""}) {
+        const test::Outcome outcome = test::run(tiny_preview(below("none"), {"--walltime", text}));
+        EXPECT_EQ(outcome.exit_code, 2) << text;
+        EXPECT_NE(outcome.output.find("--walltime: '" + std::string(text) + "': expected seconds (90)"),
+                  std::string::npos)
+            << outcome.output;
+        EXPECT_FALSE(fs::exists(below("none")));
+    }
+}
+
 // Stopped after the first step, again in the middle, resumed on another number of threads: the same bits.
 TEST_F(Program, a_run_in_three_parts_leaves_the_files_of_one)
 {

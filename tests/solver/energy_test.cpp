@@ -295,6 +295,54 @@ TEST(StableTimeStep, shrinks_with_speed_in_the_updated_formulation)
                 transfer::deformed_step_share * 0.5 / (run.prepared.wave_speed + 1000), 1e-15);
 }
 
+// A run whose step goes to nothing never ends: below a thousandth of the step at rest it stops and says where.
+TEST(StableTimeStep, ends_the_run_where_a_cell_is_squeezed_to_nothing)
+{
+    Job run = support::started(support::bar(support::metal(), 0, 0));
+    Real& stretch = run.state.particles.deformation_gradient[4][7];
+    stretch = 2e-3;
+    EXPECT_NO_THROW((void)solver::stable_time_step(run.problem, run.prepared, run.state));
+    stretch = 2e-4;
+    try {
+        (void)solver::stable_time_step(run.problem, run.prepared, run.state);
+        FAIL() << "no error";
+    } catch (const core::NumericalError& error) {
+        const std::string text = error.what();
+        const std::string id = std::to_string(run.state.particles.id[7]);
+        for (const std::string& part : {"particle " + id + " from (", std::string("squeezed to 1/5000 of its width"),
+                                        std::string("at step 0"), std::string("level 0")})
+            EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+    }
+}
+
+TEST(StableTimeStep, ends_the_run_where_nodes_squeeze_a_cell_to_nothing)
+{
+    solver::Problem problem = support::bar(support::metal(), 0, 0);
+    problem.numerics = support::nodal_numerics(solver::Precision::f64);
+    Job run = support::started(problem);
+    grid::Levels& levels = run.state.levels;
+    for (std::size_t n = 0; n < levels.leaves.size(); ++n)
+        for (int node = 0; node < grid::tile_nodes; ++node)
+            levels.motions(n)[node].change[1] =
+                (2e-4 - 1) * 0.5 * (levels.leaves[n].origin[1] + node / grid::tile_side % grid::tile_side);
+    EXPECT_THROW((void)solver::stable_time_step(run.problem, run.prepared, run.state), core::NumericalError);
+}
+
+TEST(StableTimeStep, ends_the_run_where_a_particle_is_thrown_away)
+{
+    solver::Problem problem = support::bar(support::metal(), 0, 0);
+    problem.numerics.formulation = solver::Formulation::updated;
+    problem.loads.clear();
+    Job run = support::started(problem);
+    run.state.particles.velocity[1][7] = 1e4 * run.prepared.wave_speed;
+    try {
+        (void)solver::stable_time_step(run.problem, run.prepared, run.state);
+        FAIL() << "no error";
+    } catch (const core::NumericalError& error) {
+        EXPECT_NE(std::string(error.what()).find("the speed of sound is"), std::string::npos) << error.what();
+    }
+}
+
 TEST(StableTimeStep, names_the_particle_that_is_not_finite)
 {
     for (const solver::Formulation formulation : formulations) {
