@@ -67,6 +67,38 @@ TEST(Scenes, c1_converges_with_boxes)
         converges("verification/c1-box-wave/case.toml", row);
 }
 
+/// Second order in the displacement, first in the stress at the particles, which lie beside the middle of their cell.
+TEST(Scenes, c3_vortex_converges)
+{
+    struct Limits
+    {
+        const char* name;
+        Overrides scheme;
+        Real displacement, stress; // largest errors at 0.03125 mm
+        Real ratio_of_displacement, ratio_of_stress;
+    };
+    for (const Limits& row :
+         {Limits{"nodal", nodal, 0.0034, 0.095, 3.9, 2.0}, Limits{"mixed", mixed, 0.0034, 0.095, 3.9, 2.0},
+          Limits{"flip", flip, 0.0041, 0.097, 2.7, 2.0}, Limits{"apic", apic, 0.0044, 0.095, 3.3, 2.0},
+          Limits{"gimp", gimp, 0.0102, 0.122, 2.2, 1.55}, Limits{"gimp apic", gimp_apic, 0.006, 0.092, 3.0, 1.8}})
+    {
+        Real displacement = 0, stress = 0;
+        for (const Real cell : {0.125, 0.0625, 0.03125}) {
+            Overrides overrides = row.scheme;
+            overrides.push_back(fmt::format("grid.cell={}", cell));
+            const support::Results results = support::results_of("verification/c3-vortex/case.toml", overrides);
+            if (displacement > 0) {
+                EXPECT_GT(displacement / results.at("displacement_l2"), row.ratio_of_displacement) << row.name << cell;
+                EXPECT_GT(stress / results.at("stress_l2"), row.ratio_of_stress) << row.name << ' ' << cell;
+            }
+            displacement = results.at("displacement_l2");
+            stress = results.at("stress_l2");
+        }
+        EXPECT_LT(displacement, row.displacement) << row.name;
+        EXPECT_LT(stress, row.stress) << row.name;
+    }
+}
+
 TEST(Scenes, c5_bar_keeps_period_and_energy)
 {
     const support::Results results = support::results_of("verification/c5-bar/case.toml", {});
@@ -92,6 +124,15 @@ TEST(Scenes, cracks_dissipate_their_fracture_energy_at_every_cell_size)
                 EXPECT_NEAR(support::results_of(file, overrides).at("crack_energy_mJ") / 0.25, 1, 0.01)
                     << file << ' ' << cell;
             }
+}
+
+/// At rest half a length away. The reference does not shear, so the fine limit is 0.9 % above it.
+TEST(Scenes, c8_cantilever_bends_as_far_as_the_elastica)
+{
+    const support::Results results = support::results_of("verification/c8-cantilever/case.toml", {});
+    EXPECT_NEAR(results.at("deflection") / 0.49346, 1.0127, 5e-4);
+    EXPECT_NEAR(results.at("shortening") / 0.16064, 1.0164, 5e-4);
+    EXPECT_LT(results.at("kinetic_mJ"), 1e-12 * results.at("elastic_mJ"));
 }
 
 /// A hundred turns. Stress of first order in time bursts the block after fifteen.
