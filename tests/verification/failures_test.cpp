@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace
 {
 support::Results prestressed_block(const std::vector<std::string>& overrides)
@@ -30,6 +32,19 @@ TEST(Failures, prestressed_metal_stays_at_rest)
                                   std::string("end.time=") + until, "output.history.every_time=0.005"});
     };
     EXPECT_LT(steel("0.6", "0.8").at("kinetic_mJ"), 1.3 * steel("0.1", "0.3").at("kinetic_mJ"));
+}
+
+/// B15: at 0.95 of the strength nothing may crack; particles that cross cells make noise enough to start it.
+TEST(Failures, noise_of_crossings_starts_cracks_and_boxes_do_not)
+{
+    const auto first_crack = [](std::vector<std::string> overrides) {
+        overrides.emplace_back("end.time=20"); // two periods
+        return support::results_of("failures/noise-onset.toml", overrides).at("first_crack_ms");
+    };
+    EXPECT_TRUE(std::isnan(first_crack({})));
+    EXPECT_TRUE(std::isnan(first_crack({"numerics.transfer=flip"})));
+    EXPECT_TRUE(std::isnan(first_crack({"numerics.formulation=updated", "numerics.basis=gimp"})));
+    EXPECT_LT(first_crack({"numerics.formulation=updated"}), 2.5);
 }
 
 /// B27: across an interface of levels a crack dissipates up to a tenth more than its fracture energy.
