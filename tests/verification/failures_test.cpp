@@ -47,6 +47,18 @@ TEST(Failures, noise_of_crossings_starts_cracks_and_boxes_do_not)
     EXPECT_LT(first_crack({"numerics.formulation=updated"}), 2.5);
 }
 
+/// B28: torn to twelve cells, the crack's particles stay with the fragments and keep the energy of the crack.
+TEST(Failures, what_has_torn_does_not_run_away)
+{
+    for (const std::vector<std::string>& scheme :
+         {std::vector<std::string>{}, {"numerics.transfer=flip"}, {"numerics.formulation=updated"}})
+    {
+        const support::Results results = support::results_of("failures/fragments.toml", scheme);
+        EXPECT_LT(results.at("fastest"), 2.2 * 5);
+        EXPECT_NEAR(results.at("crack_energy_mJ") / 0.25, 1, 2e-3);
+    }
+}
+
 /// B27: across an interface of levels a crack dissipates up to a tenth more than its fracture energy.
 TEST(Failures, a_crack_that_leaves_the_fine_cells_dissipates_a_little_more)
 {
