@@ -34,6 +34,7 @@ std::optional<double> parse_walltime(const std::string& text)
     double part = 0;
     if (!(in >> part) || part < 0) return std::nullopt;
     double total = part;
+    const bool clock = in.peek() == ':';
     while (in.peek() == ':') {
         in.get();
         if (!(in >> part) || part < 0) return std::nullopt;
@@ -41,6 +42,8 @@ std::optional<double> parse_walltime(const std::string& text)
     }
     std::string unit;
     in >> unit;
+    std::string more;
+    if (in >> more || (clock && !unit.empty())) return std::nullopt;
     if (unit == "min") return 60 * total;
     if (unit == "h") return 3600 * total;
     if (!unit.empty() && unit != "s") return std::nullopt;

@@ -132,7 +132,7 @@ TEST_F(Program, a_preview_run_writes_every_file)
 
 TEST_F(Program, a_wall_time_that_is_none_is_bad_input)
 {
-    for (const char* text : {"abc", "-5", "3 days", ""}) {
+    for (const char* text : {"abc", "-5", "3 days", "", "1h 30min", "90 s x", "1:30 h"}) {
         const test::Outcome outcome = test::run(tiny_preview(below("none"), {"--walltime", text}));
         EXPECT_EQ(outcome.exit_code, 2) << text;
         EXPECT_NE(outcome.output.find("--walltime: '" + std::string(text) + "': expected seconds (90)"),
