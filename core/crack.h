@@ -20,7 +20,7 @@ struct Crack
     std::array<Real, 3> slip{};          // mm, tangential opening u_t
     Real normal_strength = 0;            // MPa, tau_nf frozen at onset
     Real tangential_strength = 0;        // MPa, tau_tf frozen at onset
-    Real effective_length = 0;           // mm, L_e frozen at onset
+    Real effective_length = 0;           // mm, L_e of the plane: frozen with it
     Real surface_energy = 0;             // N/mm, U_0 used (after the snap-back policy)
     Real snap_back_ratio = 0;            // 1, B_s = L_e / L_crit before the policy
     Real onset_time = 0;                 // ms

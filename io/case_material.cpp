@@ -94,6 +94,14 @@ material::Decohesion read_decohesion(Draft& draft, SectionReader& section)
     law.crack_exclusion = section.real("crack_exclusion", law.nonlocal_radius);
     if (law.crack_exclusion > 0 && law.nonlocal_radius == 0)
         section.error("crack_exclusion", "crack_exclusion belongs to the nonlocal onset", "add a nonlocal_radius");
+    if (const std::optional<Vec3> plane = section.optional_vector("weak_plane")) {
+        if (plane->norm() == 0) section.error("weak_plane", "a plane needs a normal other than zero");
+        const Vec3 unit = plane->normalized();
+        law.weak_plane = {unit[0], unit[1], unit[2]};
+    }
+    law.rotating_until = section.real("rotating_until");
+    if (law.weak_plane && law.rotating_until > 0)
+        section.error("rotating_until", "a weak_plane does not rotate", "leave out one of the two keys");
     law.friction = section.real("friction");
     return law;
 }

@@ -74,14 +74,19 @@ PlaneTraction plane_traction(const core::Sym<double>& stress, const core::Vec<do
     return {along, std::sqrt(core::dot(tangential, tangential))};
 }
 
-std::optional<Mode> failing_mode(const Decohesion& law, const Principal& stress)
+std::optional<Mode> failing_mode(const Decohesion& law, const PlaneTraction& traction)
 {
-    const bool opens = stress.value[0] > law.s_max;
-    const bool shears = (stress.value[0] - stress.value[2]) / 2 > law.tau_max;
+    const bool opens = traction.normal > law.s_max;
+    const bool shears = traction.shear > law.tau_max;
     if (opens && shears) return Mode::mixed;
     if (opens) return Mode::opening;
     if (shears) return Mode::shear;
     return std::nullopt;
+}
+
+std::optional<Mode> failing_mode(const Decohesion& law, const Principal& stress)
+{
+    return failing_mode(law, PlaneTraction{stress.value[0], (stress.value[0] - stress.value[2]) / 2});
 }
 
 std::optional<core::Crack> onset(const Decohesion& law, const Elastic& elastic, const core::Sym<double>& test_stress,
@@ -89,10 +94,12 @@ std::optional<core::Crack> onset(const Decohesion& law, const Elastic& elastic, 
 {
     CLEAVE_EXPECTS(law.q > 0 && spacing > 0);
     const Principal principal_stress = principal(test_stress);
-    const std::optional<Mode> mode = failing_mode(law, principal_stress);
+    const std::optional<Mode> mode = law.weak_plane ? failing_mode(law, plane_traction(test_stress, {*law.weak_plane}))
+                                                    : failing_mode(law, principal_stress);
     if (!mode) return std::nullopt;
 
-    const core::Vec<double> normal = crack_normal(*mode, principal_stress, bias);
+    const core::Vec<double> normal =
+        law.weak_plane ? core::Vec<double>{*law.weak_plane} : crack_normal(*mode, principal_stress, bias);
     core::Crack crack;
     crack.mode = static_cast<std::int32_t>(*mode);
     crack.normal = normal.v;

@@ -30,6 +30,9 @@ PlaneTraction plane_traction(const core::Sym<double>& stress, const core::Vec<do
 /// Mode that a stress starts, by the three criteria of the paper; none while both strengths hold.
 std::optional<Mode> failing_mode(const Decohesion& law, const Principal& stress);
 
+/// The same on a given plane: tension beyond s_max opens it, shear beyond tau_max shears it.
+std::optional<Mode> failing_mode(const Decohesion& law, const PlaneTraction& traction);
+
 /// State of a new crack (damage 0), or nothing if the strengths hold. The stress itself is not changed in this step.
 ///
 /// @param test_stress  MPa, after the return to the yield surface: decides mode and plane (the particle's own stress,

@@ -3,6 +3,7 @@
 
 #include "core/real.h"
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -70,7 +71,11 @@ struct Decohesion
     bool smoothed_onset = true; // test the onset on the cell mean of the stress
     Real nonlocal_radius = 0;   // mm, test it on the mean over a ball instead (transfer/nonlocal_onset.h); 0: off
     Real crack_exclusion = 0;   // mm, with a ball: no second crack plane this close beside a parallel one; 0: none
-    Real friction = 0;          // 1, Coulomb coefficient of a closed crack
+    /// 1, unit normal of the only plane that can break (a weld, a bond, a side groove), in space at onset; empty: the
+    /// stress decides.
+    std::optional<std::array<Real, 3>> weak_plane;
+    Real rotating_until = 0; // 1, damage until which the plane of an opening crack follows the strain; 0: fixed
+    Real friction = 0;       // 1, Coulomb coefficient of a closed crack
 };
 
 struct Material

@@ -2,6 +2,8 @@
 
 #include "core/contract.h"
 #include "material/crack_faces.h"
+#include "material/decohesion.h"
+#include "material/rotating_crack.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,6 +121,7 @@ SeparationLaw separation_law(const Material& material)
     law.q = decohesion.q;
     if (decohesion.snap_back == SnapBack::brittle_drop)
         law.drop_speed = material.elastic.wave_speed() / decohesion.drop_transits;
+    law.rotating_until = decohesion.rotating_until;
     law.friction = decohesion.friction;
     return law;
 }
@@ -133,10 +136,15 @@ DecohesionStep separate(const SeparationLaw& law, const core::Crack& crack, cons
     if (crack.damage >= 1) {
         slide(law, before, faces);
     } else {
+        const double turned = crack.damage < law.rotating_until && crack.mode == static_cast<int>(Mode::opening)
+                                  ? rotate_to_strain(law, faces)
+                                  : 0;
+        after.effective_length = faces.effective_length;
         const Traction<double> trial = traction_on(faces.stress, faces.normal);
         const bool brittle = law.drop_speed > 0 && crack.snap_back_ratio >= 1;
         const Traction<double> released = brittle ? dropped(law, after, trial, step.dt) : softened(law, after, trial);
         open(law, before, trial, released, faces);
+        faces.decohesion_work += turned;
         if (after.damage >= 1) after.separation_time = step.time;
     }
     after.normal = faces.normal.v;

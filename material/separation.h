@@ -30,6 +30,7 @@ struct SeparationLaw
     std::optional<PlasticConstants<double>> plastic; // empty: elastic
     double q = 1;                                    // 1, exponent of softening
     double drop_speed = 0;                           // mm/ms, c_d / k: brittle ramp; 0: the softening law always
+    double rotating_until = 0;                       // 1, damage up to which an opening crack follows the strain
     double friction = 0;                             // 1, Coulomb coefficient of a closed crack
 };
 
@@ -56,7 +57,8 @@ struct DecohesionStep
     double plastic_work = 0;      // mJ/mm^3
 };
 
-/// Advance a crack of any damage by one step.
+/// Advance a crack of any damage by one step. The plane of an opening crack is turned first while lambda <
+/// rotating_until (material/rotating_crack.h).
 ///
 /// lambda < 1: the equations above, or, where the law asks for the brittle drop and the crack is in snap-back,
 /// tractions bounded by (1 - lambda) times those at onset with d_lambda = dt c_d / (k L_e). lambda = 1: the crack opens

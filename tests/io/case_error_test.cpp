@@ -26,8 +26,9 @@ TEST_F(CaseError, misspelt_key)
               "   12 | tau_mx = \"820 MPa\"\n"
               "      | ^~~~~~  did you mean 'tau_max'?\n"
               "   keys here: G_I, G_II, band_factor, c_m, c_m_mixed, c_m_opening, c_m_shear, crack_exclusion, "
-              "drop_transits, energy_floor_factor, friction, mode, nonlocal_radius, onset_strength, preset, q, s_max, "
-              "smoothed_onset, snap_back, tau_max, u0     (cleave keys material.decohesion)\n"
+              "drop_transits, energy_floor_factor, friction, mode, nonlocal_radius, onset_strength, preset, q, "
+              "rotating_until, s_max, smoothed_onset, snap_back, tau_max, u0, weak_plane     (cleave keys "
+              "material.decohesion)\n"
               "2 errors");
 }
 

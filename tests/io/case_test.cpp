@@ -70,6 +70,8 @@ void expect_equal_materials(const material::Material& a, const material::Materia
     EXPECT_EQ(x.smoothed_onset, y.smoothed_onset);
     EXPECT_EQ(x.nonlocal_radius, y.nonlocal_radius);
     EXPECT_EQ(x.crack_exclusion, y.crack_exclusion);
+    EXPECT_EQ(x.weak_plane, y.weak_plane);
+    EXPECT_EQ(x.rotating_until, y.rotating_until);
     EXPECT_EQ(x.friction, y.friction);
 }
 
@@ -217,6 +219,7 @@ drop_transits = 5
 smoothed_onset = false
 nonlocal_radius = "0.25 mm"
 crack_exclusion = 0.1
+rotating_until = 0.5
 [material.rubber]
 density = 1e-3
 youngs_modulus = 10

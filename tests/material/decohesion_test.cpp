@@ -176,6 +176,23 @@ TEST(Onset, strength_covers_the_smoothed_and_the_own_stress)
     EXPECT_FALSE(onset(paper(), steel(), Sym{{0, 0, 0, 810, 0, 0}}, Sym{{0, 0, 0, 900, 0, 0}}, {l, {}}, spacing, 0));
 }
 
+/// Only the tractions on the weak plane count, whatever the stress is elsewhere.
+TEST(Onset, weak_plane_is_the_only_one_that_breaks)
+{
+    Decohesion law = paper();
+    law.weak_plane = {0, 1, 0};
+    EXPECT_FALSE(onset(law, steel(), Sym{{9000, 0, 0, 0, 0, 0}}, Sym{}, {}, spacing, 0));   // along the plane
+    EXPECT_FALSE(onset(law, steel(), Sym{{0, 4800, 0, 800, 0, 0}}, Sym{}, {}, spacing, 0)); // below both
+    const Sym opening{{9000, 4901, 0, 0, 0, 0}}, shearing{{9000, 0, 0, 0, 821, 0}}, mixed{{0, 4901, 0, 821, 0, 0}};
+    EXPECT_EQ(crack_of(law, opening).mode, 1);
+    EXPECT_EQ(crack_of(law, shearing).mode, 2);
+    EXPECT_EQ(crack_of(law, mixed).mode, 3);
+    for (const Sym& stress : {opening, shearing, mixed}) {
+        EXPECT_EQ(crack_of(law, stress).normal, (std::array<double, 3>{0, 1, 0}));
+        EXPECT_EQ(crack_of(law, stress).effective_length, spacing);
+    }
+}
+
 /// B29: near both thresholds the mode may follow the noise; away from them it may not.
 TEST(Onset, mode_is_stable_away_from_the_double_threshold)
 {
