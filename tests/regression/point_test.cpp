@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 namespace fs = std::filesystem;
@@ -62,6 +63,44 @@ TEST(PointCommand, keeps_what_it_computed_before_a_failure)
     EXPECT_TRUE(contains(outcome.output, "no strain gives stress xx"));
     const std::string csv = test::contents(directory / "point.csv");
     EXPECT_GT(std::count(csv.begin(), csv.end(), '\n'), 1000);
+}
+
+/// Number that follows `label` in a summary.
+double value_after(const std::string& text, const std::string& label)
+{
+    const std::size_t at = text.find(label);
+    return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + label.size()));
+}
+
+/// B10: the table of the README, with the policy named.
+TEST(PointCommand, snap_back_dissipates_the_energy_or_the_floor)
+{
+    const struct
+    {
+        const char* cell;
+        double energy;
+    } table[] = {{"0.44", 0.137}, {"1.97", 0.147977}, {"2.41", 0.181027}, {"10.95", 0.82251}, {"26.3", 1.97553}};
+    for (const auto& [cell, energy] : table) {
+        const test::Outcome outcome =
+            test::run({"point", cases + "snap-back.toml", "--set", std::string("point.cell=") + cell, "-o",
+                       clean("cleave_point_snap_back").string()});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+        EXPECT_NEAR(value_after(outcome.output, "dissipated   ") / energy, 1, 1e-3) << cell;
+    }
+}
+
+/// B14: what a fixed plane locks, a plane that turns with the strain lets go.
+TEST(PointCommand, willam_locks_with_a_fixed_plane)
+{
+    const auto largest = [](const char* rotating) {
+        const test::Outcome outcome = test::run({"point", cases + "willam.toml", "--set",
+                                                 std::string("material.concrete.decohesion.rotating_until=") + rotating,
+                                                 "-o", clean("cleave_point_willam").string()});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+        return value_after(outcome.output, "largest ");
+    };
+    EXPECT_NEAR(largest("0"), 14.81, 0.02);
+    EXPECT_NEAR(largest("1"), 2.73, 0.02);
 }
 
 TEST(PointCommand, refuses_cases_and_directories_of_runs)
