@@ -135,6 +135,17 @@ TEST(Scenes, c8_cantilever_bends_as_far_as_the_elastica)
     EXPECT_LT(results.at("kinetic_mJ"), 1e-12 * results.at("elastic_mJ"));
 }
 
+/// Considère's force; with a dilatation per point the neck locks (0.5 mm: strain 0.40 instead of 0.78).
+TEST(Scenes, c13_bar_necks_at_the_force_of_considere)
+{
+    const char* file = "verification/c13-necking/case.toml";
+    const support::Results results = support::results_of(file, {"grid.cell=1"});
+    EXPECT_NEAR(results.at("plateau_MPa") / 1097.4, 1, 1e-3);
+    EXPECT_NEAR(results.at("neck_strain"), 0.679, 0.02);
+    const support::Results locked = support::results_of(file, {"grid.cell=1", "material.steel.dilatation=point"});
+    EXPECT_LT(locked.at("neck_strain"), 0.6 * results.at("neck_strain"));
+}
+
 /// Force and dissipation of a growing crack against linear elastic fracture mechanics.
 TEST(Scenes, c19_cantilever_beam_splits_at_the_force_of_its_fracture_energy)
 {
