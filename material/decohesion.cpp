@@ -1,6 +1,7 @@
 #include "material/decohesion.h"
 
 #include "core/contract.h"
+#include "material/band_width.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,8 +107,7 @@ std::optional<core::Crack> onset(const Decohesion& law, const Elastic& elastic, 
     crack.onset_time = time;
     crack.normal_strength = normal_strength(law, *mode, normal, principal_stress, test_stress, stress);
     crack.tangential_strength = mode_ratio(law, *mode) * crack.normal_strength;
-    crack.effective_length =
-        law.band_factor * spacing * (std::abs(normal[0]) + std::abs(normal[1]) + std::abs(normal[2]));
+    crack.effective_length = law.band_factor * spacing * band_width(normal);
 
     // Which traction softens: the one that met the criterion. The particle's own may still be far below it.
     const PlaneTraction starting = plane_traction(test_stress, normal);

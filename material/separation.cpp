@@ -2,7 +2,7 @@
 
 #include "core/contract.h"
 #include "material/crack_faces.h"
-#include "material/decohesion.h"
+#include "material/crack_plane.h"
 #include "material/rotating_crack.h"
 
 #include <algorithm>
