@@ -32,6 +32,14 @@ TEST_F(CaseError, misspelt_key)
               "2 errors");
 }
 
+TEST_F(CaseError, weak_plane_needs_a_normal_and_does_not_rotate)
+{
+    const std::string text =
+        complaint(with(valid_case, "tau_max =", "weak_plane = [0, 0, 0]\nrotating_until = 0.5\ntau_max ="));
+    EXPECT_TRUE(contains(text, "case.toml:12:14: error: a plane needs a normal other than zero\n"));
+    EXPECT_TRUE(contains(text, "case.toml:13:18: error: a weak_plane does not rotate\n"));
+}
+
 TEST_F(CaseError, misspelt_section)
 {
     const std::string text = complaint(with(valid_case, "[forces]", "[force]"));
