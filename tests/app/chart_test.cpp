@@ -4,6 +4,7 @@
 #include "app/chart_page.h"
 #include "app/chart_summary.h"
 #include "app/leave_one_out.h"
+#include "tests/support/folder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -153,11 +154,9 @@ TEST(Advise, no_evidence_from_errors_that_do_not_fall_or_a_failed_finest_run)
 }
 
 /// A cube of steel with a hole, pulled: elastic, one level.
-std::filesystem::path written_case()
+std::filesystem::path written_case(const support::Folder& folder)
 {
-    const std::filesystem::path file =
-        std::filesystem::path(testing::TempDir()) /
-        fmt::format("cleave_{}.toml", testing::UnitTest::GetInstance()->current_test_info()->name());
+    const std::filesystem::path file = folder / "cube.toml";
     std::ofstream(file) << R"(units = "mm-g-ms"
 [grid]
 cell = 1
@@ -202,7 +201,8 @@ std::vector<ChartRow> measured()
 
 TEST(Advise, takes_the_cheapest_method_that_like_scenes_met_the_error_with)
 {
-    const app::AdviceRequest request{written_case(), {}, 0.05, {}, {}};
+    const support::Folder folder;
+    const app::AdviceRequest request{written_case(folder), {}, 0.05, {}, {}};
     const std::optional<app::Advice> advice = app::advise(request, measured());
     ASSERT_TRUE(advice);
     // nodal needs x = 0.05: 0.2 mm in the hole of 4 mm. flip needs x = 0.1 and a cell of 1/3 mm: at (3/5)^4 of the
@@ -217,25 +217,28 @@ TEST(Advise, takes_the_cheapest_method_that_like_scenes_met_the_error_with)
 
 TEST(Advise, a_method_that_failed_on_a_like_scene_is_not_advised)
 {
+    const support::Folder folder;
     std::vector<ChartRow> rows = measured();
     for (ChartRow& r : rows)
         if (r.scene == "two" && r.scheme == "flip" && r.finest_mm == 0.25) r.status = "failed";
-    const std::optional<app::Advice> advice = app::advise({written_case(), {}, 0.05, {}, {}}, rows);
+    const std::optional<app::Advice> advice = app::advise({written_case(folder), {}, 0.05, {}, {}}, rows);
     ASSERT_TRUE(advice);
     EXPECT_EQ(advice->method.transfer, "nodal");
 }
 
 TEST(Advise, out_of_reach_is_no_advice)
 {
+    const support::Folder folder;
     std::vector<ChartRow> rows = measured();
     for (ChartRow& r : rows) r.error = 0.1; // nothing converges
-    EXPECT_FALSE(app::advise({written_case(), {}, 0.05, {}, {}}, rows));
+    EXPECT_FALSE(app::advise({written_case(folder), {}, 0.05, {}, {}}, rows));
 }
 
 TEST(LeaveOneOut, tells_met_from_missed)
 {
+    const support::Folder folder;
     std::vector<ChartRow> rows = measured();
-    for (ChartRow& r : rows) r.file = written_case().string();
+    for (ChartRow& r : rows) r.file = written_case(folder).string();
     // The file is the same for all, so every scene counts as the case's own; the left-out one must not.
     std::vector<app::Verdict> verdicts = app::leave_one_out(rows, 0.05);
     ASSERT_EQ(verdicts.size(), 3U);

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
-#include "tests/io/file_faults.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ struct Texts
 
 Texts run(bool terminal)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     std::FILE* out = std::fopen((folder.path() / "out").c_str(), "w");
     {
         app::Log log(folder.path() / "log.txt", out, terminal);
@@ -47,7 +47,7 @@ TEST(Log, ShowsNoStatusElsewhere)
 
 TEST(Log, AppendsToTheFileOfTheRunBefore)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     io::write_file(folder.path() / "log.txt", "before\n");
     app::Log(folder.path() / "log.txt", stderr, false).file_line("after");
     EXPECT_EQ(io::read_file(folder.path() / "log.txt"), "before\nafter\n");

@@ -2,6 +2,7 @@
 
 #include "io/atomic_file.h"
 #include "tests/io/file_faults.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -53,7 +54,7 @@ TEST(ShareDone, IsThatOfTheEndWhichComesFirst)
 
 TEST(Progress, WritesAPlainLineEvery30SecondsWithSpeedAndTimeLeft)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     std::FILE* out = std::fopen((folder.path() / "out").c_str(), "w");
     double now = 1000;
     {
@@ -84,7 +85,7 @@ TEST(Progress, WritesAPlainLineEvery30SecondsWithSpeedAndTimeLeft)
 
 TEST(Progress, RefreshesATerminalTwiceASecondAndTheLogRarely)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     std::FILE* out = std::fopen((folder.path() / "out").c_str(), "w");
     double now = 0;
     {

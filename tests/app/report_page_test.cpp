@@ -7,6 +7,7 @@
 #include "io/history_file.h"
 #include "tests/io/file_faults.h"
 #include "tests/io/sample_state.h"
+#include "tests/support/folder.h"
 
 #include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
@@ -76,7 +77,7 @@ TEST(ReportPage, SurvivesARunThatHasJustBegun)
 
 TEST(Report, ReadsAResultDirectory)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const solver::State state = sample::state();
     io::write_run_record(folder.path() / "run.json", sample_report().record);
     io::HistoryFile history(folder.path() / "history.csv", 2);

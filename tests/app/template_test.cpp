@@ -2,6 +2,7 @@
 
 #include "app/forecast.h"
 #include "io/case.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -24,16 +25,11 @@ solver::Problem refined_block()
     return problem;
 }
 
-std::filesystem::path written_template()
-{
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "cleave_template.toml";
-    std::ofstream(file) << app::case_template("demo");
-    return file;
-}
-
 TEST(Template, is_a_valid_case)
 {
-    const io::Case read = io::read_case_with_warnings(written_template());
+    const support::Folder folder;
+    std::ofstream(folder / "demo.toml") << app::case_template("demo");
+    const io::Case read = io::read_case_with_warnings(folder / "demo.toml");
     EXPECT_EQ(read.problem.title, "demo");
     EXPECT_TRUE(read.warnings.empty());
 }

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "tests/io/file_faults.h"
+#include "tests/support/folder.h"
 
 #include <fstream>
 #include <sys/mount.h>
@@ -11,7 +12,7 @@ using Names = std::vector<std::string>;
 
 TEST(AtomicFile, ReplacesTheOldTextWhole)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const auto path = folder.path() / "a.txt";
     io::write_file(path, "first, longer text");
     io::write_file(path, "second");
@@ -21,7 +22,7 @@ TEST(AtomicFile, ReplacesTheOldTextWhole)
 
 TEST(AtomicFile, KeepsTheOldTextWhenTheDiskIsFull)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const auto path = folder.path() / "a.txt";
     io::write_file(path, "old");
     std::string message;
@@ -37,7 +38,7 @@ TEST(AtomicFile, KeepsTheOldTextWhenTheDiskIsFull)
 
 TEST(AtomicFile, LeavesNothingWithoutCommit)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     {
         const io::AtomicFile file(folder.path() / "a.txt");
         std::ofstream(file.temporary()) << "half";
@@ -48,7 +49,7 @@ TEST(AtomicFile, LeavesNothingWithoutCommit)
 
 TEST(AtomicFile, NamesPathAndReasonWhenTheDirectoryIsAFile)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     io::write_file(folder.path() / "file", "");
     const auto path = folder.path() / "file" / "a.txt";
     const std::string message = faults::message<core::FileError>([&] { io::write_file(path, "text"); });
@@ -60,7 +61,7 @@ TEST(AtomicFile, NamesPathAndReasonWhenTheDirectoryIsAFile)
 
 TEST(AtomicFile, ReportsAReadOnlyFileSystem)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     if (::mount("tmpfs", folder.path().c_str(), "tmpfs", MS_RDONLY, nullptr) != 0)
         GTEST_SKIP() << "mounting needs a privilege";
     const std::string message =

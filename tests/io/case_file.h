@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "io/case.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -79,15 +80,6 @@ inline std::string with(std::string_view text, std::string_view from, std::strin
 class CaseFile : public testing::Test
 {
 protected:
-    CaseFile()
-        : directory_(std::filesystem::path(testing::TempDir()) /
-                     ("cleave_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name())))
-    {
-        std::filesystem::remove_all(directory_);
-        std::filesystem::create_directories(directory_);
-    }
-    ~CaseFile() override { std::filesystem::remove_all(directory_); }
-
     std::filesystem::path write(std::string_view text, const std::string& name = "case.toml") const
     {
         const std::filesystem::path file = directory_ / name;
@@ -102,7 +94,7 @@ protected:
             (void)io::read_case(write(text), overrides);
         } catch (const core::InputError& error) {
             std::string out = error.what();
-            const std::string prefix = directory_.string() + "/";
+            const std::string prefix = directory().string() + "/";
             for (std::size_t at = out.find(prefix); at != std::string::npos; at = out.find(prefix))
                 out.erase(at, prefix.size());
             return out;
@@ -110,9 +102,9 @@ protected:
         return "";
     }
 
-    const std::filesystem::path& directory() const { return directory_; }
+    const std::filesystem::path& directory() const { return directory_.path(); }
 
 private:
-    std::filesystem::path directory_;
+    support::Folder directory_;
 };
 } // namespace test

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "io/csv.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +12,6 @@
 
 namespace
 {
-std::filesystem::path file()
-{
-    return std::filesystem::path(testing::TempDir()) / "cleave_chart_file_test.csv";
-}
-
 TEST(Csv, quotes_what_needs_it_and_reads_it_back)
 {
     const std::vector<std::string> cells{"plain", "a,b", "say \"so\"", "two\nlines", ""};
@@ -36,8 +32,9 @@ TEST(ChartFile, rows_come_back)
     row.cpu_s = 1.5;
     row.front = 1;
     row.overrides = "load.a.velocity=[0, \"free\", 1]";
-    io::write_chart(file(), {row, {}});
-    const std::vector<io::ChartRow> read = io::read_chart(file());
+    const support::Folder folder;
+    io::write_chart(folder / "chart.csv", {row, {}});
+    const std::vector<io::ChartRow> read = io::read_chart(folder / "chart.csv");
     ASSERT_EQ(read.size(), 2U);
     EXPECT_EQ(read[0].setting, row.setting);
     EXPECT_EQ(read[0].overrides, row.overrides);
@@ -49,10 +46,12 @@ TEST(ChartFile, rows_come_back)
 
 TEST(ChartFile, other_tables_are_refused)
 {
-    std::ofstream(file()) << "a,b\n1,2\n";
-    EXPECT_THROW((void)io::read_chart(file()), core::FileError);
-    io::write_chart(file(), {{}});
-    std::ofstream(file(), std::ios::app) << "short,line\n";
-    EXPECT_THROW((void)io::read_chart(file()), core::FileError);
+    const support::Folder folder;
+    const std::filesystem::path file = folder / "chart.csv";
+    std::ofstream(file) << "a,b\n1,2\n";
+    EXPECT_THROW((void)io::read_chart(file), core::FileError);
+    io::write_chart(file, {{}});
+    std::ofstream(file, std::ios::app) << "short,line\n";
+    EXPECT_THROW((void)io::read_chart(file), core::FileError);
 }
 } // namespace

@@ -6,6 +6,7 @@
 #include "tests/io/file_faults.h"
 #include "tests/io/sample_state.h"
 #include "tests/solver/same_bits.h"
+#include "tests/support/folder.h"
 #include "tests/support/runs.h"
 
 #include <gtest/gtest.h>
@@ -103,7 +104,7 @@ void no_warning(const std::string& text)
 
 TEST(Checkpoint, ReturnsEveryBit)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const solver::State state = sample::state();
     const auto path = io::write_checkpoint(folder.path(), state, this_case, 2);
     EXPECT_EQ(path.filename(), "ck_000400.h5");
@@ -113,7 +114,7 @@ TEST(Checkpoint, ReturnsEveryBit)
 
 TEST(Checkpoint, ReturnsAnIntactStateWithoutTheOptionalColumns)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     solver::State state = sample::state();
     for (auto& column : state.particles.deformation_gradient) column.clear();
     state.particles.volume_ratio.assign(state.particles.size(), std::nextafter(1.0, 2.0));
@@ -158,7 +159,7 @@ TEST(Checkpoint, ANodalRunContinuesToTheSameBits)
          {support::nodal_numerics(solver::Precision::f64), support::nodal_numerics(solver::Precision::mixed),
           support::subcycled_numerics(solver::Precision::mixed)})
     {
-        const faults::Folder folder;
+        const support::Folder folder;
         support::Job run = torn_bar(numerics);
         std::size_t found = 0, started = 0;
         for (int n = 0; n < 20; ++n) {
@@ -185,7 +186,7 @@ TEST(Checkpoint, ANodalRunContinuesToTheSameBits)
 
 TEST(Checkpoint, RefusesNodesThatDoNotFitTheLeaves)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     support::Job run = torn_bar(support::nodal_numerics(solver::Precision::f64));
     const solver::OutputColumns columns(run.state);
     run.state.levels.motion.pop_back();
@@ -196,7 +197,7 @@ TEST(Checkpoint, RefusesNodesThatDoNotFitTheLeaves)
 
 TEST(Checkpoint, KeepsTheNewestAndDropsLeftOversOfAnotherRun)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     for (const int step : {900, 1000}) io::write_checkpoint(folder.path(), at_step(step), this_case, 2);
     for (const int step : {100, 200, 300}) io::write_checkpoint(folder.path(), at_step(step), this_case, 2);
     EXPECT_EQ(folder.names(), (Names{"ck_000200.h5", "ck_000300.h5", "latest"}));
@@ -206,7 +207,7 @@ TEST(Checkpoint, KeepsTheNewestAndDropsLeftOversOfAnotherRun)
 TEST(Checkpoint, FallsBackToTheOneBeforeADamagedOne)
 {
     for (const bool cut : {true, false}) {
-        const faults::Folder folder;
+        const support::Folder folder;
         io::write_checkpoint(folder.path(), at_step(100), this_case, 2);
         const auto newest = io::write_checkpoint(folder.path(), at_step(200), this_case, 2);
         const auto size = std::filesystem::file_size(newest);
@@ -228,7 +229,7 @@ TEST(Checkpoint, FallsBackToTheOneBeforeADamagedOne)
 
 TEST(Checkpoint, RefusesAnotherCaseAndSaysWhatDiffers)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const auto path = io::write_checkpoint(folder.path(), sample::state(), this_case, 2);
     const io::CheckpointCase other{"[grid]\ncell = 0.125\nlevels = 2\n", "0.1.0"};
     const std::string message =
@@ -240,7 +241,7 @@ TEST(Checkpoint, RefusesAnotherCaseAndSaysWhatDiffers)
 
 TEST(Checkpoint, DistinguishesNoneFromNoneReadable)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     EXPECT_FALSE(io::resume(folder.path() / "missing", this_case, no_warning).has_value());
     EXPECT_FALSE(io::resume(folder.path(), this_case, no_warning).has_value());
     io::write_file(folder.path() / "ck_000001.h5", "not HDF5");
@@ -249,7 +250,7 @@ TEST(Checkpoint, DistinguishesNoneFromNoneReadable)
 
 TEST(Checkpoint, LeavesTheEarlierOneWhenTheDiskIsFull)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     io::write_checkpoint(folder.path(), at_step(100), this_case, 1);
     {
         const faults::FileSizeLimit limit(100000);

@@ -1,8 +1,8 @@
 #include "io/event_file.h"
 
 #include "io/atomic_file.h"
-#include "tests/io/file_faults.h"
 #include "tests/io/sample_state.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ TEST(EventFile, names_ligaments_and_initiations_and_reads_back)
     EXPECT_EQ(text, "step,time_ms,ligament,event,front,force_N,cod_mm,initiation\n"
                     "100,0.1,A-D,onset,0,2000,0.3,\n"
                     "400,0.4,A-D,first,0.3333,5000,0.6,c1\n");
-    const faults::Folder folder;
+    const support::Folder folder;
     io::write_file(folder.path() / "events.csv", text);
     const auto rows = io::read_events(folder.path() / "events.csv");
     ASSERT_EQ(rows.size(), 3U);

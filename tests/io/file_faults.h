@@ -1,49 +1,13 @@
-/// Places where writing fails, and a directory of a test's own.
+/// Places where writing fails.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <csignal>
-#include <filesystem>
-#include <string>
 #include <sys/resource.h>
-#include <unistd.h>
-#include <vector>
+
+#include <csignal>
+#include <string>
 
 namespace faults
 {
-/// An empty directory that is removed with everything in it.
-class Folder
-{
-public:
-    Folder()
-        : path_(std::filesystem::temp_directory_path() /
-                ("cleave_" + std::to_string(::getpid()) + "_" +
-                 ::testing::UnitTest::GetInstance()->current_test_info()->name()))
-    {
-        std::filesystem::remove_all(path_);
-        std::filesystem::create_directories(path_);
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-    /// Names of all files in it, hidden ones too.
-    std::vector<std::string> names() const
-    {
-        std::vector<std::string> names;
-        for (const auto& entry : std::filesystem::directory_iterator(path_))
-            names.push_back(entry.path().filename().string());
-        std::sort(names.begin(), names.end());
-        return names;
-    }
-
-private:
-    std::filesystem::path path_;
-};
-
 /// While it lives no file of this process can grow beyond `bytes`: writes fail with "File too large", as with a full
 /// disk they fail with "No space left on device".
 class FileSizeLimit

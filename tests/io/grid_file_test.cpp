@@ -6,6 +6,7 @@
 #include "io/particle_fields.h"
 #include "tests/io/file_faults.h"
 #include "tests/io/sample_state.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -63,7 +64,7 @@ std::size_t cell_at(const io::Hdf5Reader& file, int level, const Vec3& point)
 
 TEST(GridFile, DescribesTheLevelsAsVtkhdfWantsThem)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const solver::State state = sample::state();
     const auto path = write(folder.path(), state);
     EXPECT_EQ(path.filename(), "g_000400.hdf");
@@ -90,7 +91,7 @@ TEST(GridFile, DescribesTheLevelsAsVtkhdfWantsThem)
 // Seven layers of the finest cells: the last one fills half of the cells above it, and those are left out.
 TEST(GridFile, ListsOnlyCoarseCellsThatFinerOnesFill)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const io::Hdf5Reader file(write(folder.path(), sample::three_levels()));
     EXPECT_EQ(file.dataset<std::int32_t>(level_path(0, "AMRBox")),
               (Boxes{0, 3, 0, 7, 0, 7, 4, 5, 0, 3, 0, 3, 6, 6, 0, 1, 0, 1}));
@@ -105,7 +106,7 @@ TEST(GridFile, ListsOnlyCoarseCellsThatFinerOnesFill)
 // velocity = (x, 2 y, 3 z) in the samples, so its mean over a cell is that of the centre, on every level.
 TEST(GridFile, HoldsMeansInTheirPlaces)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     for (const solver::State& state : {sample::state(), sample::three_levels(), sample::three_levels(-16)}) {
         const io::Hdf5Reader file(write(folder.path(), state));
         for (int level = 0; level < state.levels.count; ++level) {
@@ -128,7 +129,7 @@ TEST(GridFile, HoldsMeansInTheirPlaces)
 
 TEST(GridFile, HoldsTheMassOfTheBodyInTheCellsThatAreSeen)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const solver::State state = sample::three_levels();
     const io::Hdf5Reader file(write(folder.path(), state));
     Real mass = 0;
@@ -144,7 +145,7 @@ TEST(GridFile, HoldsTheMassOfTheBodyInTheCellsThatAreSeen)
 
 TEST(GridFile, TakesMeansWeightedByMass)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     solver::State state = sample::state();
     auto& particles = state.particles;
     particles.cracks[0].damage = 1;
@@ -164,7 +165,7 @@ TEST(GridFile, TakesMeansWeightedByMass)
 
 TEST(GridFile, NamesUnitsAndConfiguration)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     solver::State state = sample::state();
     {
         const io::Hdf5Reader file(write(folder.path(), state));
@@ -183,7 +184,7 @@ TEST(GridFile, NamesUnitsAndConfiguration)
 
 TEST(GridSeries, ListsTheFramesAndRewinds)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     io::rewind_grid_series(folder.path(), 0.2); // a run without frames
     solver::State state = sample::state();
     for (const int step : {100, 200, 300}) {
@@ -201,7 +202,7 @@ TEST(GridSeries, ListsTheFramesAndRewinds)
 
 TEST(GridSeries, DoesNotListAFrameThatDidNotFitTheDisk)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     solver::State state = sample::state();
     write(folder.path(), state);
     const std::string before = io::read_file(folder.path() / "grid.hdf.series");

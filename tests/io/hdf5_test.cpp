@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "tests/io/file_faults.h"
+#include "tests/support/folder.h"
 
 #include <hdf5.h>
 
@@ -35,7 +36,7 @@ void write_noise(const std::filesystem::path& path, io::Hdf5Filter filter)
 
 TEST(Hdf5, ReturnsWhatWasWritten)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const auto path = folder.path() / "a.h5";
     const std::vector<double> values = noise(3 * 70001);
     {
@@ -66,7 +67,7 @@ TEST(Hdf5, ReturnsWhatWasWritten)
 
 TEST(Hdf5, StoresNoTimesSoThatEqualDataGiveEqualBytes)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     write_noise(folder.path() / "a.h5", io::Hdf5Filter::deflate);
     const hid_t file = H5Fopen((folder.path() / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     H5O_info_t about{};
@@ -77,7 +78,7 @@ TEST(Hdf5, StoresNoTimesSoThatEqualDataGiveEqualBytes)
 
 TEST(Hdf5, LeavesNothingWhenTheDiskIsFull)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     for (const auto filter : {io::Hdf5Filter::deflate, io::Hdf5Filter::checksum})
         for (const rlim_t bytes : {rlim_t(0), rlim_t(100), rlim_t(5000), rlim_t(1000000)}) {
             std::string message;
@@ -94,7 +95,7 @@ TEST(Hdf5, LeavesNothingWhenTheDiskIsFull)
 
 TEST(Hdf5, ReportsAFullFileSystem)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     if (::mount("tmpfs", folder.path().c_str(), "tmpfs", 0, "size=200k") != 0)
         GTEST_SKIP() << "mounting needs a privilege";
     const std::string message =
@@ -107,7 +108,7 @@ TEST(Hdf5, ReportsAFullFileSystem)
 
 TEST(Hdf5, FindsDamagedBytesByTheirChecksum)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const auto path = folder.path() / "a.h5";
     write_noise(path, io::Hdf5Filter::checksum);
     {
@@ -125,7 +126,7 @@ TEST(Hdf5, FindsDamagedBytesByTheirChecksum)
 
 TEST(Hdf5, NamesFileAndObjectOfAnError)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const auto path = folder.path() / "a.h5";
     EXPECT_PRED2(contains, faults::message<core::FileError>([&] { io::Hdf5Reader file(path); }),
                  "No such file or directory");

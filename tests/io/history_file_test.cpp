@@ -4,6 +4,7 @@
 #include "io/atomic_file.h"
 #include "tests/io/file_faults.h"
 #include "tests/io/sample_state.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,7 @@ TEST(HistoryFile, StartsWithTheColumnsOfTheContract)
 
 TEST(HistoryFile, IsOnDiskAfterEveryLineAndReadsBack)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const auto path = folder.path() / "history.csv";
     const auto history = sample::state().history;
     io::HistoryFile file(path, 2);
@@ -40,7 +41,7 @@ TEST(HistoryFile, IsOnDiskAfterEveryLineAndReadsBack)
 
 TEST(HistoryFile, ResumesAfterTheStepOfTheCheckpoint)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const auto path = folder.path() / "history.csv";
     const auto history = sample::state().history;
     {
@@ -61,7 +62,7 @@ TEST(HistoryFile, ResumesAfterTheStepOfTheCheckpoint)
 
 TEST(HistoryFile, ReportsAFullDiskAndAForeignFile)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const auto path = folder.path() / "history.csv";
     io::HistoryFile file(path, 2);
     {

@@ -6,6 +6,7 @@
 #include "io/particle_columns.h"
 #include "tests/io/file_faults.h"
 #include "tests/io/sample_state.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +36,7 @@ std::vector<Real> column(const char* name, const solver::State& state)
 
 TEST(ParticleFile, HoldsEveryFieldOfTheTableWithItsUnit)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const solver::State state = sample::state();
     const auto path = write(folder.path(), state);
     EXPECT_EQ(path.filename(), "p_000400.hdf");
@@ -57,7 +58,7 @@ TEST(ParticleFile, HoldsEveryFieldOfTheTableWithItsUnit)
 
 TEST(ParticleFile, KeepsAllDigitsWhenAsked)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const solver::State state = sample::state();
     const io::Hdf5Reader file(write(folder.path(), state, io::Precision::f64));
     EXPECT_EQ(file.dataset<double>("/VTKHDF/Points"), io::particle_points(state.particles));
@@ -93,7 +94,7 @@ TEST(ParticleColumns, MeanWhatTheTableSays)
 
 TEST(ParticleSeries, ListsTheFramesInOrderOfTimeAndRewinds)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     solver::State state = sample::state();
     for (const int step : {100, 200, 300}) {
         state.clock.step = step;
@@ -114,7 +115,7 @@ TEST(ParticleSeries, ListsTheFramesInOrderOfTimeAndRewinds)
 
 TEST(ParticleSeries, DoesNotListAFrameThatDidNotFitTheDisk)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     solver::State state = sample::state();
     write(folder.path(), state);
     const std::string before = io::read_file(folder.path() / "particles.hdf.series");
@@ -129,7 +130,7 @@ TEST(ParticleSeries, DoesNotListAFrameThatDidNotFitTheDisk)
 
 TEST(ParticleFrame, GivesTheReportPlaceSideAndFields)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     EXPECT_FALSE(io::read_last_particle_frame(folder.path(), {"damage"}).has_value());
     const solver::State state = sample::state();
     write(folder.path(), state);

@@ -4,6 +4,7 @@
 #include "io/atomic_file.h"
 #include "io/process_memory.h"
 #include "tests/io/file_faults.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -39,7 +40,7 @@ io::RunRecord record()
 
 TEST(RunRecord, HasTheKeysOfTheContract)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     io::write_run_record(folder.path() / "run.json", record());
     const auto json = nlohmann::json::parse(io::read_file(folder.path() / "run.json"));
     EXPECT_EQ(json.at("version"), "0.1.0");
@@ -59,7 +60,7 @@ TEST(RunRecord, HasTheKeysOfTheContract)
 
 TEST(RunRecord, ReadsBackAsItWas)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const auto path = folder.path() / "run.json";
     io::write_run_record(path, record());
     const std::string text = io::read_file(path);
@@ -76,7 +77,7 @@ TEST(RunRecord, GivesItsMeasuresOnOneLine)
 
 TEST(RunRecord, NamesAFileItCannotRead)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const auto path = folder.path() / "run.json";
     EXPECT_THROW(io::read_run_record(path), core::FileError);
     io::write_file(path, "{\"title\": 3}");

@@ -5,6 +5,7 @@
 #include "io/voxel_sums.h"
 #include "tests/io/file_faults.h"
 #include "tests/io/sample_state.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
@@ -71,7 +72,7 @@ TEST(VoxelSums, KeepTheMassWhereverTheParticlesAre)
 
 TEST(VdbFile, FillsCoarseAndFineRegionsWithTheDensityOfTheBody)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const solver::State state = sample::state();
     const auto density = read_grid<FloatGrid>(write(folder.path(), state, options()), "density");
     // 4 x 8 x 8 coarse cells of 0.25 mm are 8 x 16 x 16 voxels; 8 x 8 x 8 fine cells of 0.125 mm are as many voxels.
@@ -83,7 +84,7 @@ TEST(VdbFile, FillsCoarseAndFineRegionsWithTheDensityOfTheBody)
 
 TEST(VdbFile, CentresVoxelsOnCells)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const solver::State state = sample::state(); // velocity = (x, 2 y, 3 z)
     const auto velocity = read_grid<openvdb::Vec3SGrid>(write(folder.path(), state, options()), "velocity");
     const Vec3 coarse(10.0625 + 3 * 0.125, 20.0625 + 5 * 0.125, 30.0625), fine(11.0625, 20.0625, 30.0625 + 0.25);
@@ -99,7 +100,7 @@ TEST(VdbFile, CentresVoxelsOnCells)
 
 TEST(VdbFile, TakesMeansWeightedByMass)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     solver::State state = sample::state();
     auto& particles = state.particles;
     particles.cracks[0].damage = 1;
@@ -112,7 +113,7 @@ TEST(VdbFile, TakesMeansWeightedByMass)
 
 TEST(VdbFile, NamesScalesAndDescribesForThePreset)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     const solver::State state = sample::state();
     io::VdbFileOptions houdini = options();
     houdini.preset = "houdini";
@@ -134,7 +135,7 @@ TEST(VdbFile, NamesScalesAndDescribesForThePreset)
 
 TEST(VdbFile, CountsTheFramesUpToAStep)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     solver::State state = sample::state();
     EXPECT_EQ(io::last_vdb_frame(folder.path(), 1000), 0);
     for (int frame = 1; frame <= 3; ++frame) {
@@ -150,7 +151,7 @@ TEST(VdbFile, CountsTheFramesUpToAStep)
 
 TEST(VdbFile, LeavesNothingWhenTheDiskIsFull)
 {
-    const faults::Folder folder;
+    const support::Folder folder;
     std::string message;
     {
         const faults::FileSizeLimit limit(3000);

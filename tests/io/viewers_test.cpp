@@ -3,8 +3,8 @@
 #include "io/particle_fields.h"
 #include "io/particle_file.h"
 #include "io/vdb_file.h"
-#include "tests/io/file_faults.h"
 #include "tests/io/sample_state.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ TEST(Viewers, PyopenvdbReadsAllGridsOfAVolume)
 {
     if (!succeeds(debian_python + " -c 'import pyopenvdb' 2>/dev/null"))
         GTEST_SKIP() << "python3-openvdb is not installed";
-    const faults::Folder folder;
+    const support::Folder folder;
     write_frames(folder.path());
     EXPECT_TRUE(succeeds(debian_python + " " + tools + "check_vdb.py " + folder.path().string()));
 }
@@ -68,7 +68,7 @@ TEST(Viewers, PyopenvdbReadsAllGridsOfAVolume)
 TEST(Viewers, SlowParaviewShowsWhatTheFilesHold)
 {
     if (!paraview_is_there()) GTEST_SKIP() << "paraview, xvfb or python3-h5py is not installed";
-    const faults::Folder folder;
+    const support::Folder folder;
     write_frames(folder.path());
     EXPECT_TRUE(succeeds("xvfb-run -a pvbatch " + tools + "check_particles_pvbatch.py " + folder.path().string()));
 }
@@ -76,7 +76,7 @@ TEST(Viewers, SlowParaviewShowsWhatTheFilesHold)
 TEST(Viewers, SlowParaviewShowsTheNestedGrid)
 {
     if (!paraview_is_there()) GTEST_SKIP() << "paraview, xvfb or python3-h5py is not installed";
-    const faults::Folder folder;
+    const support::Folder folder;
     write_grid_frames(folder.path());
     EXPECT_TRUE(succeeds("xvfb-run -a pvbatch " + tools + "check_grid_pvbatch.py " + folder.path().string()));
 }

@@ -1,5 +1,6 @@
 /// `cleave point` as a user runs it, with the numbers cases/point/README.md promises.
 #include "tests/regression/program.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -13,13 +14,6 @@ namespace
 {
 const std::string cases = std::string(CLEAVE_SOURCE_DIR) + "/cases/point/";
 
-fs::path clean(const char* name)
-{
-    const fs::path directory = fs::path(testing::TempDir()) / name;
-    fs::remove_all(directory);
-    return directory;
-}
-
 testing::AssertionResult contains(const std::string& text, const std::string& part)
 {
     if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
@@ -28,7 +22,8 @@ testing::AssertionResult contains(const std::string& text, const std::string& pa
 
 TEST(PointCommand, opening_writes_its_files_and_its_summary)
 {
-    const fs::path directory = clean("cleave_point_opening");
+    const support::Folder folder;
+    const fs::path directory = folder / "out";
     const test::Outcome outcome = test::run({"point", cases + "opening.toml", "-o", directory.string()});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     EXPECT_EQ(test::files_below(directory), (std::vector<std::string>{"point.csv", "point.svg", "resolved.toml"}));
@@ -46,8 +41,9 @@ TEST(PointCommand, opening_writes_its_files_and_its_summary)
 
 TEST(PointCommand, paper_preset_drops)
 {
-    const test::Outcome outcome = test::run(
-        {"point", cases + "shear.toml", "--set", "point.material=paper", "-o", clean("cleave_point_paper").string()});
+    const support::Folder folder;
+    const test::Outcome outcome =
+        test::run({"point", cases + "shear.toml", "--set", "point.material=paper", "-o", folder.path().string()});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     EXPECT_TRUE(contains(outcome.output, "mode shear\n"));
     EXPECT_TRUE(contains(outcome.output, "policy       brittle drop over 8 transits"));
@@ -55,7 +51,8 @@ TEST(PointCommand, paper_preset_drops)
 
 TEST(PointCommand, keeps_what_it_computed_before_a_failure)
 {
-    const fs::path directory = clean("cleave_point_failure"), file = fs::path(testing::TempDir()) / "tension.toml";
+    const support::Folder folder;
+    const fs::path directory = folder / "out", file = folder / "tension.toml";
     std::ofstream(file) << "include = \"" << cases << "steel.toml\"\n[point]\nmaterial = \"objective\"\ncell = 0.25\n"
                         << "[[point.segment]]\nsteps = 3000\nstress = { xx = 3000 }\n"; // shears at 1640 MPa
     const test::Outcome outcome = test::run({"point", file.string(), "-o", directory.string()});
@@ -75,15 +72,15 @@ double value_after(const std::string& text, const std::string& label)
 /// B10: the table of the README, with the policy named.
 TEST(PointCommand, snap_back_dissipates_the_energy_or_the_floor)
 {
+    const support::Folder folder;
     const struct
     {
         const char* cell;
         double energy;
     } table[] = {{"0.44", 0.137}, {"1.97", 0.147977}, {"2.41", 0.181027}, {"10.95", 0.82251}, {"26.3", 1.97553}};
     for (const auto& [cell, energy] : table) {
-        const test::Outcome outcome =
-            test::run({"point", cases + "snap-back.toml", "--set", std::string("point.cell=") + cell, "-o",
-                       clean("cleave_point_snap_back").string()});
+        const test::Outcome outcome = test::run({"point", cases + "snap-back.toml", "--set",
+                                                 std::string("point.cell=") + cell, "-o", folder.path().string()});
         EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
         EXPECT_NEAR(value_after(outcome.output, "dissipated   ") / energy, 1, 1e-3) << cell;
     }
@@ -92,10 +89,11 @@ TEST(PointCommand, snap_back_dissipates_the_energy_or_the_floor)
 /// B14: what a fixed plane locks, a plane that turns with the strain lets go.
 TEST(PointCommand, willam_locks_with_a_fixed_plane)
 {
-    const auto largest = [](const char* rotating) {
+    const support::Folder folder;
+    const auto largest = [&](const char* rotating) {
         const test::Outcome outcome = test::run({"point", cases + "willam.toml", "--set",
                                                  std::string("material.concrete.decohesion.rotating_until=") + rotating,
-                                                 "-o", clean("cleave_point_willam").string()});
+                                                 "-o", folder.path().string()});
         EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
         return value_after(outcome.output, "largest ");
     };
@@ -111,10 +109,9 @@ TEST(PointCommand, refuses_cases_and_directories_of_runs)
     const test::Outcome point_case = test::run({"run", cases + "opening.toml"});
     EXPECT_EQ(point_case.exit_code, 2);
     EXPECT_TRUE(contains(point_case.output, "use `cleave point`"));
-    const fs::path directory = clean("cleave_point_beside_run");
-    fs::create_directories(directory);
-    std::ofstream(directory / "run.json") << "{}";
-    const test::Outcome mixed = test::run({"point", cases + "opening.toml", "-o", directory.string()});
+    const support::Folder folder;
+    std::ofstream(folder / "run.json") << "{}";
+    const test::Outcome mixed = test::run({"point", cases + "opening.toml", "-o", folder.path().string()});
     EXPECT_EQ(mixed.exit_code, 2);
     EXPECT_TRUE(contains(mixed.output, "holds a run"));
 }

@@ -1,4 +1,5 @@
 #include "tests/regression/program.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -39,9 +40,10 @@ Outcome wait_for(pid_t process, const fs::path& output)
 
 Outcome run(const std::vector<std::string>& arguments)
 {
-    const fs::path output = fs::path(testing::TempDir()) /
-                            (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".out");
-    return wait_for(start(arguments, output), output);
+    const fs::path output = fs::path(testing::TempDir()) / ("cleave_" + std::to_string(::getpid()) + ".out");
+    const Outcome outcome = wait_for(start(arguments, output), output);
+    fs::remove(output);
+    return outcome;
 }
 
 std::string contents(const fs::path& file)
@@ -83,18 +85,10 @@ std::vector<std::string> tiny_preview(const fs::path& directory, const std::vect
 class Program : public testing::Test
 {
 protected:
-    Program()
-        : directory_(fs::path(testing::TempDir()) /
-                     ("cleave_program_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name())))
-    {
-        fs::remove_all(directory_);
-        fs::create_directories(directory_);
-    }
-    ~Program() override { fs::remove_all(directory_); }
     fs::path below(const std::string& name) const { return directory_ / name; }
 
 private:
-    fs::path directory_;
+    support::Folder directory_;
 };
 
 bool has_checkpoint(const fs::path& directory)

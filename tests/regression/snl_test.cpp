@@ -2,6 +2,7 @@
 /// slow.
 #include "io/history_file.h"
 #include "tests/regression/program.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -34,10 +35,9 @@ Mean mean_force(const std::vector<solver::HistoryLine>& history, double cod)
 
 TEST(SlowSnl, ForcesWithoutFractureMatchFiniteElements)
 {
-    const fs::path directory = fs::path(testing::TempDir()) / "snl-no-fracture";
-    fs::remove_all(directory);
+    const support::Folder directory;
     const test::Outcome outcome =
-        test::run({"run", CLEAVE_SOURCE_DIR "/cases/snl/no-fracture.toml", "-o", directory.string()});
+        test::run({"run", CLEAVE_SOURCE_DIR "/cases/snl/no-fracture.toml", "-o", directory.path().string()});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
 
     const auto history = io::read_history(directory / "history.csv");

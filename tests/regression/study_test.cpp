@@ -1,6 +1,7 @@
 /// `cleave chart` and `cleave sweep` as a user calls them, on a bar that takes milliseconds.
 #include "io/chart_file.h"
 #include "tests/regression/program.h"
+#include "tests/support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -94,23 +95,18 @@ class Study : public testing::Test
 {
 protected:
     Study()
-        : directory_(fs::path(testing::TempDir()) /
-                     ("cleave_study_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name())))
     {
-        fs::remove_all(directory_);
-        fs::create_directories(directory_);
         write("bar.toml", bar);
         write("suite.toml", suite);
         write("sweep.toml", sweep);
     }
-    ~Study() override { fs::remove_all(directory_); }
 
     void write(const std::string& name, const std::string& text) const { std::ofstream(at(name)) << text; }
     std::string at(const std::string& name) const { return (directory_ / name).string(); }
     std::vector<io::ChartRow> rows() const { return io::read_chart(directory_ / "out/chart.csv"); }
     std::vector<std::string> chart() const { return {"chart", at("suite.toml"), "-o", at("out"), "--jobs", "2"}; }
 
-    fs::path directory_;
+    support::Folder directory_;
 };
 
 const io::ChartRow* find(const std::vector<io::ChartRow>& rows, const std::string& setting)
