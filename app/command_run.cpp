@@ -167,7 +167,7 @@ int run_case(const RunOptions& options)
         files.record.status = ending == Ending::done ? "done" : "stopped";
         files.record.exit_reason = finish_text(solver::finished(run.problem, run.state));
         write_record(run.problem, run.state, seconds_since(start), files);
-        log.line(measure_table(files.record, run.problem.references));
+        log.line(measure_table(files.record, run.problem));
         return ending == Ending::done ? exit_done : exit_stopped;
     } catch (const core::NumericalError& error) {
         files.record.status = "failed";

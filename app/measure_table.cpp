@@ -59,12 +59,22 @@ std::string target_table(const io::RunRecord& record)
 }
 } // namespace
 
-std::string measure_table(const io::RunRecord& record, const std::vector<solver::Reference>& references)
+bool is_asked(const solver::Problem& problem, const std::string& measure)
 {
+    if (measure == "peak_force_N") return !problem.force_upper.empty() || !problem.force_lower.empty();
+    const bool of_cracks = measure == "crack_path" || measure == "c1_force_N" || measure == "c1_cod_mm" ||
+                           measure == "c2_force_N" || measure == "c2_cod_mm" || measure == "c3_force_N" ||
+                           measure == "c3_cod_mm";
+    return !problem.ligaments.empty() || !of_cracks;
+}
+
+std::string measure_table(const io::RunRecord& record, const solver::Problem& problem)
+{
+    const std::vector<solver::Reference>& references = problem.references;
     std::string table = fmt::format("\n{:<18}{:>16}", "", "this run");
     for (const solver::Reference& reference : references) table += fmt::format("{:>26}", reference.name);
     for (const io::Measure& measure : record.measures) {
-        if (has_target(record, measure.name)) continue; // below, with its reference
+        if (has_target(record, measure.name) || !is_asked(problem, measure.name)) continue;
         const auto* path = std::get_if<std::string>(&measure.value);
         const std::string own = path == nullptr ? number_text(measure.name, std::get<Real>(measure.value))
                                 : path->empty() ? "none"

@@ -8,6 +8,9 @@
 
 namespace app
 {
-/// One row per measure, one column for this run and each reference; deviations in percent.
-std::string measure_table(const io::RunRecord& record, const std::vector<solver::Reference>& references);
+/// False for what every run.json names but a case does not ask: cracks without ligaments, forces without loads.
+bool is_asked(const solver::Problem& problem, const std::string& measure);
+
+/// One row per measure that the case asks, one column for this run and each reference; deviations in percent.
+std::string measure_table(const io::RunRecord& record, const solver::Problem& problem);
 } // namespace app

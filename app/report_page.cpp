@@ -1,6 +1,7 @@
 #include "app/report_page.h"
 
 #include "app/html_table.h"
+#include "app/measure_table.h"
 #include "app/svg_chart.h"
 #include "app/svg_field.h"
 
@@ -118,6 +119,7 @@ std::string measure_table(const Report& report)
     for (const solver::Reference& reference : report.record.references) head.push_back(reference.name);
     std::vector<Row> rows;
     for (const io::Measure& measure : report.record.measures) {
+        if (!is_asked(report.problem, measure.name)) continue;
         const bool text = std::holds_alternative<std::string>(measure.value);
         Row row{measure.name, text ? std::get<std::string>(measure.value) : number(std::get<Real>(measure.value))};
         for (const solver::Reference& reference : report.record.references) {

@@ -1,0 +1,44 @@
+#include "app/measure_table.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace
+{
+io::RunRecord record()
+{
+    io::RunRecord record;
+    record.measures = {{"peak_force_N", 8200.0},
+                       {"c1_force_N", 7500.0},
+                       {"c1_cod_mm", std::numeric_limits<Real>::quiet_NaN()},
+                       {"energy_residual", 1e-4},
+                       {"crack_path", std::string()}};
+    return record;
+}
+
+bool holds(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+TEST(MeasureTable, compares_with_every_reference)
+{
+    solver::Problem problem;
+    problem.ligaments = {{"A", "D"}};
+    problem.force_upper = "grip";
+    problem.references = {{"experiment", {{"peak_force_N", 8000.0}}, "A-D-C-E"}};
+    const std::string table = app::measure_table(record(), problem);
+    EXPECT_TRUE(holds(table, "8200 N            8000 N (+2 %)")) << table;
+    EXPECT_TRUE(holds(table, "c1_cod_mm              not reached")) << table;
+    EXPECT_TRUE(holds(table, "none                   A-D-C-E")) << table;
+}
+
+TEST(MeasureTable, leaves_out_what_the_case_does_not_ask)
+{
+    const std::string table = app::measure_table(record(), solver::Problem{});
+    EXPECT_TRUE(holds(table, "energy_residual")) << table;
+    for (const char* other : {"peak_force_N", "c1_force_N", "c1_cod_mm", "crack_path"})
+        EXPECT_FALSE(holds(table, other)) << table;
+}
+} // namespace
