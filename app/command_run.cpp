@@ -172,7 +172,10 @@ int run_case(const RunOptions& options)
     } catch (const core::NumericalError& error) {
         files.record.status = "failed";
         files.record.exit_reason = error.what();
-        write_record(run.problem, run.state, seconds_since(start), files);
+        if (run.state.particles.size() > 0)
+            write_record(run.problem, run.state, seconds_since(start), files);
+        else
+            write_status(seconds_since(start), files); // it failed before there was a state
         log.file_line(error.what());
         throw;
     }

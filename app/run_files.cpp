@@ -190,12 +190,17 @@ void write_checkpoint(const solver::Problem& problem, solver::State& state, doub
     write_record(problem, state, wall_s, files);
 }
 
+void write_status(double wall_s, RunFiles& files)
+{
+    files.record.wall_s = files.wall_before + wall_s;
+    files.record.peak_rss_bytes = io::peak_resident_bytes();
+    io::write_run_record(files.directory / "run.json", files.record);
+}
+
 void write_record(const solver::Problem& problem, const solver::State& state, double wall_s, RunFiles& files)
 {
     io::RunRecord& record = files.record;
-    record.wall_s = files.wall_before + wall_s;
     record.steps = state.clock.step;
-    record.peak_rss_bytes = io::peak_resident_bytes();
     record.particles_end = solver::particles_per_level(state);
     record.modelled = modelled(problem, state);
     const solver::Measures measures = solver::measures(problem, state.history, state.ligaments);
@@ -212,6 +217,6 @@ void write_record(const solver::Problem& problem, const solver::State& state, do
             record.targets.push_back({quantity.name, *quantity.reference,
                                       solver::relative_error(results[i], *quantity.reference), quantity.tolerance});
     }
-    io::write_run_record(files.directory / "run.json", record);
+    write_status(wall_s, files);
 }
 } // namespace app

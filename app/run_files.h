@@ -74,6 +74,9 @@ void write_last_frames(const solver::Problem& problem, solver::State& state, Run
 /// Write a checkpoint and bring run.json up to date.
 void write_checkpoint(const solver::Problem& problem, solver::State& state, double wall_s, RunFiles& files);
 
+/// Write run.json with what the record holds, times and memory brought up to date.
+void write_status(double wall_s, RunFiles& files);
+
 /// Bring run.json up to date.
 void write_record(const solver::Problem& problem, const solver::State& state, double wall_s, RunFiles& files);
 } // namespace app

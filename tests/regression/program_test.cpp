@@ -219,6 +219,15 @@ TEST_F(Program, numerical_failure_has_exit_code_3)
     EXPECT_NE(test::contents(below("out") / "run.json").find("failed"), std::string::npos);
 }
 
+TEST_F(Program, numerical_failure_before_the_first_step_has_exit_code_3)
+{
+    const std::string bar = std::string(CLEAVE_SOURCE_DIR) + "/cases/verification/c5-bar/case.toml";
+    const test::Outcome outcome = test::run({"run", bar, "--set", "numerics.formulation=updated", "--set",
+                                             "motion.mode.standing_wave.speed=1e9", "-o", below("out").string()});
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
+    EXPECT_NE(test::contents(below("out") / "run.json").find("the stable time step has fallen"), std::string::npos);
+}
+
 TEST_F(Program, file_errors_have_exit_code_4)
 {
     std::ofstream(below("file")) << "not a directory";
