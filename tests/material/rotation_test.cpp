@@ -64,6 +64,34 @@ TEST(Rotation, keeps_the_norm_of_a_stress_through_a_full_turn)
     }
 }
 
+/// B21: a square is stretched, sheared, unstretched and unsheared (Kojic & Bathe 1987). A rate form with the Jaumann
+/// rate does not come back to zero stress: what is left grows with the third power of the strains.
+TEST(Rotation, leaves_a_little_stress_after_a_closed_cycle)
+{
+    const Elastic elastic = steel();
+    const auto lame = lame_constants<double>(elastic);
+    const auto left = [&](double size) {
+        Sym stress{};
+        const int steps = 4000;
+        const double d = size / steps;
+        const auto advance = [&](const Mat& gradient) {
+            const Vec spin = spin_increment(gradient);
+            const Sym strain = at_end_of_step(core::symmetric_part(gradient), spin);
+            stress = elastic_trial(core::rotated(incremental_rotation(spin), stress), strain, lame);
+        };
+        const auto stretch = [](double rate) { return Mat{{0, 0, 0, 0, rate, 0, 0, 0, 0}}; };
+        const auto shear = [](double rate) { return Mat{{0, rate, 0, 0, 0, 0, 0, 0, 0}}; };
+        for (int i = 0; i < steps; ++i) advance(stretch(d / (1 + (i + 0.5) * d)));
+        for (int i = 0; i < steps; ++i) advance(shear(d / (1 + size)));
+        for (int i = 0; i < steps; ++i) advance(stretch(-d / (1 + size - (i + 0.5) * d)));
+        for (int i = 0; i < steps; ++i) advance(shear(-d));
+        return norm(stress) / elastic.shear_modulus();
+    };
+    const double large = left(0.1), small = left(0.05);
+    EXPECT_NEAR(large, 9e-4, 1e-4);
+    EXPECT_NEAR(large / small, 8, 0.6);
+}
+
 /// B19: elastic simple shear under the Jaumann rate, sigma_12 = mu sin gamma, sigma_11 = mu (1 - cos gamma).
 TEST(Rotation, gives_the_jaumann_stress_of_simple_shear)
 {
