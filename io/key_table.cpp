@@ -161,7 +161,9 @@ constexpr Key keys[] = {
     Key{"material.decohesion", "smoothed_onset", boolean, optional, "",
         "test the onset on the cell mean of the stress; default true, preset paper: false"},
     Key{"material.decohesion", "nonlocal_radius", real, defaulted, "0",
-        "test the onset on the mean stress of a ball of this radius; 0: off", dim::length, non_negative},
+        "test the onset on the mean stress of a ball of this radius (where a crack arrives also on the cell's own); 0: "
+        "off",
+        dim::length, non_negative},
     Key{"material.decohesion", "crack_exclusion", real, optional, "",
         "with a ball: no second plane this close beside a parallel one; default nonlocal_radius, 0: no rule",
         dim::length, non_negative},

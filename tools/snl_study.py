@@ -81,6 +81,8 @@ VARIANTS = {
     "objective-D+0.05": Variant("objective", OBJECTIVE, "hole D higher by 0.05 mm", [D_AT.format(4.03)]),
     "objective-slow": Variant("objective", OBJECTIVE, "pins part at 2.5 m/s", speed(1.25, 3.2)),
     "objective-fast": Variant("objective", OBJECTIVE, "pins part at 10 m/s", speed(5, 0.9)),
+    "slice": Variant("slice", "snl/slice.toml", "cells of 0.25 mm"),
+    "slice-fine": Variant("slice", "snl/slice.toml", "cells of 0.125 mm", ["grid.cell=0.25"]),
     "fine-mixed": Variant("fine", FINE, "paper, mixed mode, three levels"),
     "fine-opening": Variant("fine", FINE, "paper, mode I only, three levels", mode("opening")),
     "fine-shear": Variant("fine", FINE, "paper, mode II only, three levels", mode("shear")),
@@ -92,7 +94,7 @@ VARIANTS = {
                               ['output.particles.fields=["stress", "damage", "eq_plastic_strain"]']),
     **{f"coupon-{v:g}": Variant("coupon", COUPON, f"{2 * v:g} m/s", grip_speed(v)) for v in (0.5, 2.5, 5)},
 }
-EVENT_GROUPS = ["preview", "objective", "fine"]
+EVENT_GROUPS = ["preview", "objective", "slice", "fine"]
 MEASURES = ["peak_force_N", "c1_force_N", "c1_cod_mm", "c2_force_N", "c2_cod_mm", "c3_force_N", "c3_cod_mm"]
 
 

@@ -14,6 +14,8 @@ namespace transfer
 {
 namespace
 {
+constexpr Real rounding = 1e-6; // 1, of comparisons between places on the lattice
+
 /// What the phase reads, bundled for its stages.
 struct View
 {
@@ -24,13 +26,13 @@ struct View
     const NonlocalTable& table;
 };
 
-/// A cell and material that may start, with its mean stress.
+/// A cell and material that may start, with the stress it is tested on.
 struct Candidate
 {
     std::size_t slot = 0;
     std::uint8_t material = 0;
-    core::Sym<Real> mean{}; // MPa
-    Real excess = 0;        // 1, largest ratio of stress to strength; <= 1: the criterion is not met
+    core::Sym<Real> tested{}; // MPa, mean of its ball or of the cell
+    Real excess = 0;          // 1, largest ratio of stress to strength; <= 1: the criterion is not met
 };
 
 core::Sym<Real> stress_of(const View& view, const particles::Particles& particles, std::uint32_t p)
@@ -129,20 +131,6 @@ void complete_table(const View& view, const particles::Particles& particles, con
     for (std::size_t n = 0; n < missing.size(); ++n) table.ball.emplace(key_of(missing[n]), std::move(balls[n]));
 }
 
-void average(const View& view, const particles::Particles& particles, Candidate& candidate)
-{
-    const auto found = view.table.ball.find(key_of(candidate));
-    const Ball fresh = found == view.table.ball.end() ? ball_of(view, particles, candidate) : Ball{};
-    candidate.mean = mean_stress(
-        found == view.table.ball.end() ? fresh : found->second,
-        [&](std::uint32_t p) { return stress_of(view, particles, p); },
-        [&](std::uint32_t p) { return particles.crack[p] < 0; });
-    const material::Decohesion& law = *nonlocal_law(view.laws, candidate.material);
-    if (!material::may_start(candidate.mean, law.s_max, law.tau_max)) return;
-    const auto [s1, s2, s3] = material::principal(candidate.mean).value;
-    candidate.excess = std::max(s1 / law.s_max, (s1 - s3) / (2 * law.tau_max));
-}
-
 /// Velocity gradient [1/ms] and deformation gradient (total formulation, else unity) in the middle of a cell.
 struct Motion
 {
@@ -213,6 +201,64 @@ std::vector<Neighbour> cracks_near(const View& view, const particles::Particles&
     return neighbours;
 }
 
+Real excess_of(const material::Decohesion& law, const core::Sym<Real>& stress)
+{
+    if (!material::may_start(stress, law.s_max, law.tau_max)) return 0;
+    const auto [s1, s2, s3] = material::principal(stress).value;
+    return std::max(s1 / law.s_max, (s1 - s3) / (2 * law.tau_max));
+}
+
+core::Sym<Real> ball_mean(const View& view, const particles::Particles& particles, const Candidate& candidate)
+{
+    const auto found = view.table.ball.find(key_of(candidate));
+    const Ball fresh = found == view.table.ball.end() ? ball_of(view, particles, candidate) : Ball{};
+    return mean_stress(
+        found == view.table.ball.end() ? fresh : found->second,
+        [&](std::uint32_t p) { return stress_of(view, particles, p); },
+        [&](std::uint32_t p) { return particles.crack[p] < 0; });
+}
+
+core::Sym<Real> cell_mean(const View& view, const particles::Particles& particles, const Candidate& candidate)
+{
+    core::Sym<Real> mean{};
+    Real volume = 0;
+    const std::uint32_t end = view.levels.cell_start[candidate.slot + 1];
+    for (std::uint32_t p = view.levels.cell_start[candidate.slot]; p < end; ++p) {
+        if (particles.crack[p] >= 0 || particles.material[p] != candidate.material) continue;
+        mean = mean + particles.rest_volume[p] * stress_of(view, particles, p);
+        volume += particles.rest_volume[p];
+    }
+    return volume > 0 ? (1 / volume) * mean : mean;
+}
+
+/// A neighbouring cell has a crack that leads here: its plane is less than 45 degrees off the way to this cell.
+bool continues_a_crack(const View& view, const particles::Particles& particles, std::size_t slot)
+{
+    const Real spacing = view.levels.spacing(view.levels.leaves[slot / grid::leaf_cells].level);
+    const Real beside = Real(1.6) * spacing; // a coarser neighbour's centre is at 1.5
+    const core::Mat<Real> deformation = motion_of(view, particles, slot).deformation;
+    for (const Neighbour& other : cracks_near(view, particles, slot, beside)) {
+        if (other.offset.cwiseAbs().maxCoeff() > beside) continue;
+        const Real across = std::abs(other.offset.dot(at_rest(deformation, other.crack->normal)));
+        if (2 * across * across <= (1 + rounding) * other.offset.squaredNorm()) return true;
+    }
+    return false;
+}
+
+/// Stress to test: the mean of the ball; where a crack arrives the cell's own, if that exceeds the criterion further.
+void choose_tested(const View& view, const particles::Particles& particles, Candidate& candidate)
+{
+    const material::Decohesion& law = *nonlocal_law(view.laws, candidate.material);
+    candidate.tested = ball_mean(view, particles, candidate);
+    candidate.excess = excess_of(law, candidate.tested);
+    const core::Sym<Real> own = cell_mean(view, particles, candidate);
+    const Real own_excess = excess_of(law, own);
+    if (own_excess <= std::max(Real(1), candidate.excess) || !continues_a_crack(view, particles, candidate.slot))
+        return;
+    candidate.tested = own;
+    candidate.excess = own_excess;
+}
+
 /// Cracks of the cell's intact particles, empty if a neighbour forbids them.
 std::vector<Onset> cracks_of(const View& view, const particles::Particles& particles, const Candidate& candidate)
 {
@@ -233,7 +279,7 @@ std::vector<Onset> cracks_of(const View& view, const particles::Particles& parti
     for (std::uint32_t p = view.levels.cell_start[candidate.slot]; p < view.levels.cell_start[candidate.slot + 1]; ++p)
     {
         if (particles.crack[p] >= 0 || particles.material[p] != candidate.material) continue;
-        auto crack = material::onset(law, material.elastic, candidate.mean, stress_of(view, particles, p), bias,
+        auto crack = material::onset(law, material.elastic, candidate.tested, stress_of(view, particles, p), bias,
                                      spacing, view.options.time);
         if (!crack) continue;
         crack->particle_id = particles.id[p];
@@ -266,7 +312,6 @@ int nonlocal_interval(const LawTable& laws, Real dt)
 
 bool excluded(const Vec3& offset, const Vec3& normal, const Vec3& fresh, Real band, Real reach)
 {
-    constexpr Real rounding = 1e-6;
     const Real across = std::abs(offset.dot(normal));
     const Real along = (offset - offset.dot(normal) * normal).norm();
     return across > (1 + rounding) * band / 2 && across < (1 - rounding) * reach && along < (1 - rounding) * band &&
@@ -281,7 +326,7 @@ std::size_t start_nonlocal_cracks(const PassOptions& options, const LawTable& la
     std::vector<Candidate> candidates = near_onset(view, particles);
     if (candidates.empty()) return 0;
     if (options.formulation == Formulation::total) complete_table(view, particles, candidates, table);
-    core::parallel_for(candidates.size(), [&](std::size_t n) { average(view, particles, candidates[n]); });
+    core::parallel_for(candidates.size(), [&](std::size_t n) { choose_tested(view, particles, candidates[n]); });
 
     std::erase_if(candidates, [](const Candidate& candidate) { return candidate.excess <= 1; });
     std::sort(candidates.begin(), candidates.end(), goes_first);

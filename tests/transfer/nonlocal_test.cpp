@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <optional>
 
 using support::Scene;
 
@@ -183,6 +185,47 @@ TEST(Nonlocal, a_ball_smaller_than_the_distance_of_particles_is_the_cell)
     const transfer::Ball ball = ball_at(scene, 0, {0, 0, 0}, 0.01);
     EXPECT_EQ(ball.particle.size(), 8U);
     EXPECT_NEAR(ball.weight[3], 0.125, 1e-15);
+}
+
+// One cell carries one and a half times the shear strength, all around it a fifth: the mean of the ball never starts
+// it. A crack that arrives does, one that passes beside it does not.
+TEST(Nonlocal, where_a_crack_arrives_the_cell_itself_decides)
+{
+    const auto started = [](const std::optional<Index3>& cracked) {
+        material::Material metal = support::soft_elastic();
+        metal.decohesion.emplace();
+        metal.decohesion->s_max = std::numeric_limits<Real>::infinity();
+        metal.decohesion->tau_max = 1;
+        metal.decohesion->energy_2 = 1;
+        metal.decohesion->nonlocal_radius = 1.1;
+        Scene scene = support::scene_of(support::topology_of("block", 1, 3, [](const grid::CellKey&) { return false; }),
+                                        {}, {metal}, support::Layout::regular);
+        const auto cell_of = [&](std::size_t p) {
+            return Index3(((support::vector_of(scene.particles.rest_position, p) - scene.levels.origin) / 0.5)
+                              .array()
+                              .floor()
+                              .cast<int>());
+        };
+        put_stress([](std::size_t n, const Vec3&) { return n == 3 ? 0.2 : 0.0; }, scene);
+        for (std::size_t p = 0; p < scene.particles.size(); ++p) {
+            if (cell_of(p) == Index3(0, 0, 0)) scene.particles.stress[3][p] = 1.5;
+            if (!cracked || cell_of(p) != *cracked) continue;
+            core::Crack crack;
+            crack.normal = {0, 1, 0};
+            crack.damage = 1;
+            crack.effective_length = 0.5;
+            scene.particles.crack[p] = static_cast<std::int32_t>(scene.particles.cracks.size());
+            scene.particles.cracks.push_back(crack);
+        }
+        transfer::Lattice none;
+        transfer::NonlocalTable table;
+        return transfer::start_nonlocal_cracks(scene.options, scene.laws, scene.levels, none, scene.particles, table);
+    };
+    EXPECT_EQ(started({}), 0U);
+    EXPECT_EQ(started(Index3(-1, 0, 0)), 8U);  // straight on
+    EXPECT_EQ(started(Index3(-1, -1, 0)), 8U); // a kink
+    EXPECT_EQ(started(Index3(0, -1, 0)), 0U);  // at its flank
+    EXPECT_EQ(started(Index3(-2, 0, 0)), 0U);  // not there yet
 }
 
 // One layer of cells: planes beside a crack are forbidden, those that continue or cross it are not. Cells of 1 mm.
