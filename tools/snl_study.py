@@ -5,7 +5,7 @@ usage: tools/snl_study.py [-o DIRECTORY] [--group GROUP] [--page-only] [--cleave
 
 Runs the variants of VARIANTS (or one group, or those named) into DIRECTORY/NAME (default results/snl-study), one after
 the other, skipping those that are done; then writes the tables of docs/snl.md, docs/snl.csv and the pictures in docs/img
-from all results it finds. Needs python3-h5py and python3-matplotlib.
+from all results it finds. Rows of docs/snl.csv whose runs are not there stay as they are. Needs python3-h5py and python3-matplotlib.
 """
 import argparse
 import csv
@@ -261,12 +261,20 @@ def draw_stress(path, results):
     plt.close(figure)
 
 
-def table_one(results, reference):
+def kept_rows():
+    """Rows of docs/snl.csv by variant."""
+    with open(ROOT / "docs/snl.csv", newline="") as file:
+        return {row["variant"]: {key: text if key in ("group", "variant", "case", "change", "crack_path") else None if not text else int(text) if text.isdigit() else float(text)
+                                 for key, text in row.items()}
+                for row in csv.DictReader(file) if row["variant"] in VARIANTS}
+
+
+def table_one(rows, reference):
     """Table 1 of the paper with the runs at its resolution beside it."""
     columns = [("experiment", reference["experiment"]), ("Yang et al.", reference["simulation"])]
     columns += [(pathlib.Path(VARIANTS[name].case).with_suffix("").relative_to("snl"),
-                 json.loads((results[name] / "run.json").read_text())["measures"])
-                for name in ("challenge", "mixed", "objective-challenge", "objective") if name in results]
+                 rows[name])
+                for name in ("challenge", "mixed", "objective-challenge", "objective") if name in rows]
     experiment = reference["experiment"]
     lines = ["| measure | " + " | ".join(str(title) for title, _ in columns) + " |", "|---" * (len(columns) + 1) + "|"]
     for key, text, digits in [("peak_force_N", "maximum force, N", 0)] + [
@@ -290,8 +298,8 @@ def replaced(text, mark, table):
 
 
 def write_page(results, reference):
-    rows = [row_of(name, results[name]) for name, variant in VARIANTS.items()
-            if name in results and variant.group in EVENT_GROUPS]
+    by_name = kept_rows() | {name: row_of(name, results[name]) for name in results if VARIANTS[name].group in EVENT_GROUPS}
+    rows = [by_name[name] for name in VARIANTS if name in by_name]
     with open(ROOT / "docs/snl.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, rows[0].keys())
         writer.writeheader()
@@ -310,7 +318,7 @@ def write_page(results, reference):
     draw_coupon(images / "snl-coupon.png", results)
     draw_stress(images / "snl-stress.png", results)
     page = ROOT / "docs/snl.md"
-    text = replaced(page.read_text(), "table 1", table_one(results, reference))
+    text = replaced(page.read_text(), "table 1", table_one(by_name, reference))
     for group in EVENT_GROUPS:
         if f"<!-- {group} -->" in text:
             text = replaced(text, group, table([row for row in rows if row["group"] == group]))
