@@ -6,10 +6,11 @@
 ///   1. one of its own intact particles is near a strength (material::may_start), and
 ///   2. the mean over the ball about its centre meets the criterion; or, where the crack of a neighbouring cell leads
 ///      into it (the way there is less than 45 degrees off the crack's plane), the mean of the cell's own particles.
-/// Only intact particles count in the means. Why the second way: around the end of a crack the ball is full of flanks that
-/// carry nothing any more, the finer the cells the more of them, so its mean says little about the metal ahead; bridges
-/// between pieces of a crack would never break. What a crack needs to go on is its energy, which the law asks for. The cells that fulfil both start in order of how far they exceed it, and
-/// each forbids those beside it while it softens: no plane closer than `crack_exclusion` to a parallel one
+/// Only intact particles count in the means. Why the second way: around the end of a crack the ball is full of flanks
+/// that carry nothing any more, the finer the cells the more of them, so its mean says little about the metal ahead;
+/// bridges between pieces of a crack would never break. What a crack needs to go on is its energy, which the law asks
+/// for. The cells that fulfil both start in order of how far they exceed it, and each forbids those beside it while it
+/// softens: no plane closer than `crack_exclusion` to a parallel one
 /// (`excluded`). The mean field is smooth, so without this rule a band as wide as the ball would separate instead of
 /// one layer of cells.
 #pragma once

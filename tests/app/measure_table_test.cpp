@@ -29,7 +29,7 @@ TEST(MeasureTable, compares_with_every_reference)
     problem.force_upper = "grip";
     problem.references = {{"experiment", {{"peak_force_N", 8000.0}}, "A-D-C-E"}};
     const std::string table = app::measure_table(record(), problem);
-    EXPECT_TRUE(holds(table, "8200 N            8000 N (+2 %)")) << table;
+    EXPECT_TRUE(holds(table, "8200 N             8000 N (+2 %)")) << table;
     EXPECT_TRUE(holds(table, "c1_cod_mm              not reached")) << table;
     EXPECT_TRUE(holds(table, "none                   A-D-C-E")) << table;
 }
