@@ -25,7 +25,7 @@ bool holds(const std::string& text, const std::string& part)
 TEST(MeasureTable, compares_with_every_reference)
 {
     solver::Problem problem;
-    problem.ligaments = {{"A", "D"}};
+    problem.ligaments = {{"A", "D", {}}};
     problem.force_upper = "grip";
     problem.references = {{"experiment", {{"peak_force_N", 8000.0}}, "A-D-C-E"}};
     const std::string table = app::measure_table(record(), problem);

@@ -29,7 +29,7 @@ app::Report sample_report()
                               {"crack_path", std::string("A-D-C-E")}};
     report.record.references = {
         {"experiment", {{"peak_force_N", 8000.0}, {"c1_force_N", 7000.0}, {"c1_cod_mm", 0.4}}, "A-C-E"}};
-    report.problem.ligaments = {{"A", "D"}};
+    report.problem.ligaments = {{"A", "D", {}}};
     report.problem.force_upper = "grip";
     report.problem.symmetry = {{2, 30}};
     report.problem.zones.push_back({"path A-D", {}, 1, 0.5});
