@@ -213,6 +213,8 @@ def table(rows):
 
 
 def draw_coupon(path, results):
+    if not any(VARIANTS[name].group == "coupon" for name in results):
+        return
     figure, axes = plt.subplots(figsize=(6, 3.8))
     for name, variant in VARIANTS.items():
         if variant.group != "coupon" or name not in results:
