@@ -263,19 +263,26 @@ def draw_stress(path, results):
     plt.close(figure)
 
 
+def read_value(key, text):
+    """A field of docs/snl.csv: text, number or None."""
+    if key in ("group", "variant", "case", "change", "crack_path"):
+        return text
+    if not text:
+        return None
+    return int(text) if text.isdigit() else float(text)
+
+
 def kept_rows():
     """Rows of docs/snl.csv by variant."""
     with open(ROOT / "docs/snl.csv", newline="") as file:
-        return {row["variant"]: {key: text if key in ("group", "variant", "case", "change", "crack_path") else None if not text else int(text) if text.isdigit() else float(text)
-                                 for key, text in row.items()}
+        return {row["variant"]: {key: read_value(key, text) for key, text in row.items()}
                 for row in csv.DictReader(file) if row["variant"] in VARIANTS}
 
 
 def table_one(rows, reference):
     """Table 1 of the paper with the runs at its resolution beside it."""
     columns = [("experiment", reference["experiment"]), ("Yang et al.", reference["simulation"])]
-    columns += [(pathlib.Path(VARIANTS[name].case).with_suffix("").relative_to("snl"),
-                 rows[name])
+    columns += [(pathlib.Path(VARIANTS[name].case).with_suffix("").relative_to("snl"), rows[name])
                 for name in ("challenge", "mixed", "objective-challenge", "objective") if name in rows]
     experiment = reference["experiment"]
     lines = ["| measure | " + " | ".join(str(title) for title, _ in columns) + " |", "|---" * (len(columns) + 1) + "|"]
@@ -322,8 +329,9 @@ def write_page(results, reference):
     page = ROOT / "docs/snl.md"
     text = replaced(page.read_text(), "table 1", table_one(by_name, reference))
     for group in EVENT_GROUPS:
-        if f"<!-- {group} -->" in text:
-            text = replaced(text, group, table([row for row in rows if row["group"] == group]))
+        members = [row for row in rows if row["group"] == group]
+        if members and f"<!-- {group} -->" in text:
+            text = replaced(text, group, table(members))
     page.write_text(text)
 
 

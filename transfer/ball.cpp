@@ -66,17 +66,6 @@ void collect(const PassOptions& options, const grid::Levels& levels, const parti
             ball.weight.push_back(particles.rest_volume[p] * left * left);
         }
 }
-
-void take_cell(const grid::Levels& levels, const particles::Particles& particles, std::size_t slot,
-               std::uint8_t material, Ball& ball)
-{
-    for (std::uint32_t p = levels.cell_start[slot]; p < levels.cell_start[slot + 1]; ++p) {
-        if (particles.material[p] != material) continue;
-        ball.particle.push_back(p);
-        ball.turned.push_back(0);
-        ball.weight.push_back(particles.rest_volume[p]);
-    }
-}
 } // namespace
 
 OccupiedCell occupied_cell(const grid::Levels& levels, std::size_t slot)
@@ -114,6 +103,19 @@ std::vector<OccupiedCell> cells_near(const grid::Levels& levels, const Vec3& poi
     return cells;
 }
 
+Ball ball_of_cell(const grid::Levels& levels, const particles::Particles& particles, std::size_t slot,
+                  std::uint8_t material)
+{
+    Ball ball;
+    for (std::uint32_t p = levels.cell_start[slot]; p < levels.cell_start[slot + 1]; ++p) {
+        if (particles.material[p] != material) continue;
+        ball.particle.push_back(p);
+        ball.turned.push_back(0);
+        ball.weight.push_back(particles.rest_volume[p]);
+    }
+    return ball;
+}
+
 Ball ball_about(const PassOptions& options, const grid::Levels& levels, const particles::Particles& particles,
                 const OccupiedCell& cell, std::uint8_t material, Real radius)
 {
@@ -130,10 +132,6 @@ Ball ball_about(const PassOptions& options, const grid::Levels& levels, const pa
                 const unsigned turned = (x.sign < 0 ? 1u : 0u) | (y.sign < 0 ? 2u : 0u) | (z.sign < 0 ? 4u : 0u);
                 collect(options, levels, particles, seen, static_cast<std::uint8_t>(turned), material, radius, ball);
             }
-    if (ball.particle.empty()) take_cell(levels, particles, cell.slot, material, ball);
-    Real sum = 0;
-    for (const Real weight : ball.weight) sum += weight;
-    for (Real& weight : ball.weight) weight /= sum;
-    return ball;
+    return ball.particle.empty() ? ball_of_cell(levels, particles, cell.slot, material) : ball;
 }
 } // namespace transfer

@@ -22,7 +22,7 @@ struct Ball
 {
     std::vector<std::uint32_t> particle;
     std::vector<std::uint8_t> turned; // bit a: seen in a mirror normal to axis a
-    std::vector<Real> weight;         // 1, sum 1
+    std::vector<Real> weight;         // any unit: means divide by the sum
 };
 
 /// A cell that holds particles.
@@ -47,6 +47,10 @@ std::vector<OccupiedCell> cells_near(const grid::Levels& levels, const Vec3& poi
 /// @param levels  reads cell_start and topology
 Ball ball_about(const PassOptions& options, const grid::Levels& levels, const particles::Particles& particles,
                 const OccupiedCell& cell, std::uint8_t material, Real radius);
+
+/// The particles of one material in a cell, weights their rest volumes [mm^3].
+Ball ball_of_cell(const grid::Levels& levels, const particles::Particles& particles, std::size_t slot,
+                  std::uint8_t material);
 
 /// Mean of `stress_at(particle)` over the particles of the ball for which `counts(particle)` [MPa]; zero if none does.
 template <class StressAt, class Counts>

@@ -208,27 +208,19 @@ Real excess_of(const material::Decohesion& law, const core::Sym<Real>& stress)
     return std::max(s1 / law.s_max, (s1 - s3) / (2 * law.tau_max));
 }
 
-core::Sym<Real> ball_mean(const View& view, const particles::Particles& particles, const Candidate& candidate)
+/// Mean stress of the intact particles of a ball.
+core::Sym<Real> mean_of(const View& view, const particles::Particles& particles, const Ball& ball)
 {
-    const auto found = view.table.ball.find(key_of(candidate));
-    const Ball fresh = found == view.table.ball.end() ? ball_of(view, particles, candidate) : Ball{};
     return mean_stress(
-        found == view.table.ball.end() ? fresh : found->second,
-        [&](std::uint32_t p) { return stress_of(view, particles, p); },
+        ball, [&](std::uint32_t p) { return stress_of(view, particles, p); },
         [&](std::uint32_t p) { return particles.crack[p] < 0; });
 }
 
-core::Sym<Real> cell_mean(const View& view, const particles::Particles& particles, const Candidate& candidate)
+core::Sym<Real> ball_mean(const View& view, const particles::Particles& particles, const Candidate& candidate)
 {
-    core::Sym<Real> mean{};
-    Real volume = 0;
-    const std::uint32_t end = view.levels.cell_start[candidate.slot + 1];
-    for (std::uint32_t p = view.levels.cell_start[candidate.slot]; p < end; ++p) {
-        if (particles.crack[p] >= 0 || particles.material[p] != candidate.material) continue;
-        mean = mean + particles.rest_volume[p] * stress_of(view, particles, p);
-        volume += particles.rest_volume[p];
-    }
-    return volume > 0 ? (1 / volume) * mean : mean;
+    const auto found = view.table.ball.find(key_of(candidate));
+    if (found != view.table.ball.end()) return mean_of(view, particles, found->second);
+    return mean_of(view, particles, ball_of(view, particles, candidate));
 }
 
 /// A neighbouring cell has a crack that leads here: its plane is less than 45 degrees off the way to this cell.
@@ -251,7 +243,8 @@ void choose_tested(const View& view, const particles::Particles& particles, Cand
     const material::Decohesion& law = *nonlocal_law(view.laws, candidate.material);
     candidate.tested = ball_mean(view, particles, candidate);
     candidate.excess = excess_of(law, candidate.tested);
-    const core::Sym<Real> own = cell_mean(view, particles, candidate);
+    const core::Sym<Real> own =
+        mean_of(view, particles, ball_of_cell(view.levels, particles, candidate.slot, candidate.material));
     const Real own_excess = excess_of(law, own);
     if (own_excess <= std::max(Real(1), candidate.excess) || !continues_a_crack(view, particles, candidate.slot))
         return;

@@ -4,6 +4,8 @@
 #include "tests/io/file_faults.h"
 #include "tests/support/folder.h"
 
+#include <gtest/gtest.h>
+
 #include <fstream>
 #include <sys/mount.h>
 

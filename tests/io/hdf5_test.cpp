@@ -4,6 +4,7 @@
 #include "tests/io/file_faults.h"
 #include "tests/support/folder.h"
 
+#include <gtest/gtest.h>
 #include <hdf5.h>
 
 #include <fstream>

@@ -40,10 +40,9 @@ Outcome wait_for(pid_t process, const fs::path& output)
 
 Outcome run(const std::vector<std::string>& arguments)
 {
-    const fs::path output = fs::path(testing::TempDir()) / ("cleave_" + std::to_string(::getpid()) + ".out");
-    const Outcome outcome = wait_for(start(arguments, output), output);
-    fs::remove(output);
-    return outcome;
+    const support::Folder folder;
+    const fs::path output = folder / "output";
+    return wait_for(start(arguments, output), output);
 }
 
 std::string contents(const fs::path& file)

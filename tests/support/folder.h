@@ -1,27 +1,26 @@
 /// A directory of a test's own: tests run beside each other, also those of a second build.
 #pragma once
 
-#include <gtest/gtest.h>
-#include <unistd.h>
+#include <stdlib.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace support
 {
-/// An empty directory, named for the test and its process, that is removed with everything in it.
+/// An empty directory that is removed with everything in it.
 class Folder
 {
 public:
     Folder()
-        : path_(std::filesystem::temp_directory_path() /
-                ("cleave_" + std::to_string(::getpid()) + "_" +
-                 ::testing::UnitTest::GetInstance()->current_test_info()->name()))
     {
-        std::filesystem::remove_all(path_);
-        std::filesystem::create_directories(path_);
+        std::string name = (std::filesystem::temp_directory_path() / "cleave_test_XXXXXX").string();
+        if (!mkdtemp(name.data())) throw std::system_error(errno, std::generic_category(), name);
+        path_ = name;
     }
     ~Folder() { std::filesystem::remove_all(path_); }
     Folder(const Folder&) = delete;
