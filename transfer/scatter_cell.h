@@ -40,8 +40,10 @@ constexpr int flux_place(int a, int b)
 [[gnu::always_inline]] inline core::Sym<Lanes> volume_stress(Lanes volume, const core::Sym<Lanes>& stress,
                                                              LaneMask averaged, Real mean_pressure)
 {
-    const Lanes mean = core::trace(stress) * Lanes(Real(1) / 3);
-    const Lanes shift = core::select(averaged, Lanes(mean_pressure) - mean, Lanes(Real(0)));
+    // Multiplied last: a product that is subtracted may or may not be fused, depending on what else a kernel that has
+    // this inlined does with it, and the two ways to a sum would differ in bits.
+    const Lanes excess = Lanes(3 * mean_pressure) - core::trace(stress);
+    const Lanes shift = core::select(averaged, excess * Lanes(Real(1) / 3), Lanes(Real(0)));
     core::Sym<Lanes> flux;
     for (int n = 0; n < 6; ++n) flux[n] = volume * (n < 3 ? stress[n] + shift : stress[n]);
     return flux;
