@@ -119,6 +119,24 @@ inline bool any(Mask<float, 16> mask)
 {
     return _mm512_test_epi32_mask(reinterpret_cast<__m512i>(mask.v), reinterpret_cast<__m512i>(mask.v)) != 0;
 }
+#elif defined(__AVX__)
+inline bool any(Mask<double, 4> mask)
+{
+    return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask.v)) != 0;
+}
+inline bool any(Mask<float, 8> mask)
+{
+    return _mm256_movemask_ps(reinterpret_cast<__m256>(mask.v)) != 0;
+}
+#elif defined(__SSE2__)
+inline bool any(Mask<double, 2> mask)
+{
+    return _mm_movemask_pd(reinterpret_cast<__m128d>(mask.v)) != 0;
+}
+inline bool any(Mask<float, 4> mask)
+{
+    return _mm_movemask_ps(reinterpret_cast<__m128>(mask.v)) != 0;
+}
 #endif
 
 /// Lane by lane to another number type.

@@ -85,9 +85,11 @@ PointStep elastic_guess(const PointLaw& law, const PointState& before, const Tar
         why = fmt::format("the point softens (damage {:.3g}), and softening under prescribed stress has no solution: "
                           "prescribe the strain that opens or shears the crack",
                           before.crack->damage);
+    const Real digit = 1e-9 * std::abs(target.stress[component]); // MPa; what is less is rounding
+    const Real found = std::abs(closest.stress[component]) < digit ? Real(0) : closest.stress[component];
     throw core::NumericalError(
         fmt::format("no strain gives stress {} = {:.6g} MPa at step {}; the closest found is {:.6g} MPa\n{}", name,
-                    target.stress[component], before.step + 1, closest.stress[component], why));
+                    target.stress[component], before.step + 1, found, why));
 }
 
 /// The state at the end of a step whose free strains balance the prescribed stresses.

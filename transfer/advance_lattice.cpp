@@ -5,6 +5,7 @@
 #include "material/rotation.h"
 #include "material/von_mises.h"
 #include "transfer/lattice.h"
+#include "transfer/leaf_columns.h"
 #include "transfer/middle_gradient.h"
 #include "transfer/separate_lanes.h"
 #include "transfer/set_aside.h"
@@ -17,12 +18,12 @@ namespace
 {
 /// Gradients of the part's cells at the slots, and the volumes.
 template <class T>
-[[gnu::always_inline]] inline void find_gradients(const Context& context, const grid::NodeMotion* tile,
+[[gnu::always_inline]] inline void find_gradients(const Context& context, const MotionColumns<T>& motion,
                                                   const BlockPart<T>& part, Work<T>& work)
 {
     using V = PartLanes<T>;
     V corner_velocity[3][8], corner_displacement[3][8];
-    gather_corners(tile, part, corner_velocity, corner_displacement);
+    gather_corners(motion, part, corner_velocity, corner_displacement);
     Slopes<V> velocity[3];
     for (int a = 0; a < 3; ++a) {
         velocity[a] = slopes_at_slots(corner_velocity[a]);
@@ -91,34 +92,47 @@ template <class T>
     return core::select(intact, step.work * work.volume[s], V(T(0)));
 }
 
-/// V0 P = V0 sigma cof(F) of one slot, added to the fluxes of the slopes it shares.
-template <class T>
-[[gnu::always_inline]] inline void add_flux(Real per_spacing, const BlockPart<T>& part, int s,
-                                            const BlockState<T>& state, Work<T>& work)
+/// V0 P = V0 sigma cof(F) of slot S, put or added to the fluxes of the slopes it shares. (The slot is a constant: with
+/// places found while it runs the kernel spent a fifth of its time here.)
+template <int S, class T>
+[[gnu::always_inline]] inline void add_flux(Real per_spacing, const BlockPart<T>& part, const BlockState<T>& state,
+                                            const Work<T>& work, Slopes<PartLanes<T>> (&flux)[3])
 {
     using V = PartLanes<T>;
-    const core::Mat<V> cof = core::cofactor(deformation_at(work.displacement, s, per_spacing));
-    const V volume = work.rest_volume[s] * V(-per_spacing); // f = - sum V0 P grad w
+    const core::Mat<V> cof = core::cofactor(deformation_at(work.displacement, S, per_spacing));
+    const V volume = work.rest_volume[S] * V(-per_spacing); // f = - sum V0 P grad w
     core::Sym<V> stress;
-    for (std::size_t n = 0; n < 6; ++n) stress.s[n] = volume * part.load(state.stress[n], s);
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            work.flux[i].along[j][slope_place(j, s)] +=
-                stress(i, 0) * cof(0, j) + stress(i, 1) * cof(1, j) + stress(i, 2) * cof(2, j);
+    for (std::size_t n = 0; n < 6; ++n) stress.s[n] = volume * part.load(state.stress[n], S);
+    const auto share = [&]<int J>(std::integral_constant<int, J>) __attribute__((always_inline))
+    {
+        constexpr int place = slope_place(J, S);
+        constexpr bool first = first_slot(J, place) == S;
+        for (int i = 0; i < 3; ++i) {
+            V& sum = flux[i].along[J][place];
+            const V own = stress(i, 0) * cof(0, J) + stress(i, 1) * cof(1, J) + stress(i, 2) * cof(2, J);
+            sum = first ? own : sum + own;
+        }
+    };
+    share(std::integral_constant<int, 0>{});
+    share(std::integral_constant<int, 1>{});
+    share(std::integral_constant<int, 2>{});
 }
 
 template <class T>
 [[gnu::always_inline]] inline void scatter_force(const Context& context, const BlockPart<T>& part,
-                                                 const BlockState<T>& state, Work<T>& work, grid::NodeForce* tile)
+                                                 const BlockState<T>& state, const Work<T>& work,
+                                                 ForceColumns<T>& columns)
 {
     using V = PartLanes<T>;
-    for (Slopes<V>& flux : work.flux)
-        for (auto& axis : flux.along)
-            for (V& value : axis) value = V(T(0));
-    for (int s = 0; s < slots; ++s) add_flux(context.per_spacing, part, s, state, work);
+    Slopes<V> flux[3]; // N mm, V0 P summed over slots that share a slope, [component]
+    [&]<int... S>(std::integer_sequence<int, S...>) __attribute__((always_inline))
+    {
+        (add_flux<S>(context.per_spacing, part, state, work, flux), ...);
+    }
+    (std::make_integer_sequence<int, slots>{});
     V force[3][8];
-    for (int a = 0; a < 3; ++a) slopes_to_corners(work.flux[a], force[a]);
-    scatter_corners(force, part, tile);
+    for (int a = 0; a < 3; ++a) slopes_to_corners(flux[a], force[a]);
+    scatter_corners(force, part, columns);
 }
 
 /// Exact onset test of a cell where the cheap one did not clear every particle.
@@ -140,17 +154,18 @@ template <class T>
                  gradient, onset);
 }
 
-/// Ask for a state ahead of its use: one dense stream outruns what the hardware fetches by itself.
+/// Ask for a state ahead of its use: one dense stream outruns what the hardware fetches by itself. Into the second
+/// cache: the first one is full with the work on a block, and what comes too early is pushed out before it is read.
 template <class T>
 [[gnu::always_inline]] inline void prefetch(const BlockState<T>* state)
 {
     const char* begin = reinterpret_cast<const char*>(state);
-    for (std::size_t byte = 0; byte < sizeof(BlockState<T>); byte += 64) __builtin_prefetch(begin + byte);
+    for (std::size_t byte = 0; byte < sizeof(BlockState<T>); byte += 64) __builtin_prefetch(begin + byte, 0, 2);
 }
 
 template <class T>
-[[gnu::noinline]] void advance_part(const Context& context, const BlockPart<T>& part, const grid::NodeMotion* motion,
-                                    BlockState<T>& state, particles::Particles& particles, grid::NodeForce* force,
+[[gnu::noinline]] void advance_part(const Context& context, const BlockPart<T>& part, const MotionColumns<T>& motion,
+                                    BlockState<T>& state, particles::Particles& particles, ForceColumns<T>& force,
                                     LeafWork& leaf_work, std::vector<Onset>& onset, std::vector<int>& near_cells)
 {
     using V = PartLanes<T>;
@@ -204,14 +219,18 @@ void advance_leaf(const Context& context, BlockTable<T>& table, particles::Parti
                   LeafWork& leaf_work, std::vector<Onset>& onset, std::vector<int>& near_cells)
 {
     near_cells.clear();
-    grid::NodeForce* force = levels.forces(context.leaf);
-    grid::for_nodes(levels.used[context.leaf], grid::leaf_side, [&](int node) { force[node].force = {}; });
+    const grid::NodeBox& used = levels.used[context.leaf];
+    MotionColumns<T> motion;
+    read_motion(levels.motions(context.leaf), used, motion);
+    ForceColumns<T> force;
+    clear<T>(force);
     for (std::uint32_t b = table.start[context.leaf]; b < table.start[context.leaf + 1]; ++b) {
         prefetch(&table.state[b] + 1); // beyond the last one nothing is read
         for (int first = 0; first < table.block[b].count; first += part_lanes<T>)
-            advance_part(context, BlockPart<T>{table.block[b], first}, levels.motions(context.leaf), table.state[b],
-                         particles, force, leaf_work, onset, near_cells);
+            advance_part(context, BlockPart<T>{table.block[b], first}, motion, table.state[b], particles, force,
+                         leaf_work, onset, near_cells);
     }
+    write_forces<T>(force, used, levels.forces(context.leaf));
 }
 
 /// Give every starting particle its entry in the side table, in leaf order.

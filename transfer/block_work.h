@@ -31,7 +31,6 @@ struct Work
     core::Mat<V> gradient[slots]; // 1, L dt in the middle of the step
     V rest_volume[slots];         // mm^3; of separating particles the metal part once their law has been called
     V volume[slots];              // mm^3, V0 J in the middle of the step
-    Slopes<V> flux[3];            // N mm, V0 P summed over slots that share a slope, [component]
     SlotLaw<T> law[slots];        // of leaves with several materials; the first else
 };
 

@@ -1,15 +1,13 @@
-/// A block: cells of one leaf side by side, one per SIMD lane, the state of their particles, and how they meet the
-/// nodes.
+/// A block: cells of one leaf side by side, one per SIMD lane, and the state of their particles.
 ///
 /// The state is stored as the kernels use it, [slot][cell], four kilobytes per block in one piece. Cells that lack
-/// particles (cut by a surface) have zero volume in their slots, and so have the lanes behind a leaf's last cell. A
-/// node is one line of eight reals; eight lines are transposed in registers.
+/// particles (cut by a surface) have zero volume in their slots, and so have the lanes behind a leaf's last cell. How
+/// cells meet their nodes: transfer/leaf_columns.h.
 #pragma once
 
 #include "core/simd.h"
 #include "grid/levels.h"
 #include "particles/particles.h"
-#include "transfer/line_lanes.h"
 #include "transfer/slot_slopes.h"
 
 #include <algorithm>
@@ -39,7 +37,18 @@ struct CellBlock
     std::array<std::int32_t, lanes> node{};   // tile index of the lower corner
     std::array<std::uint32_t, lanes> begin{}; // first particle
     std::array<std::uint8_t, lanes> filled{}; // bit s: slot s has a particle
+    unsigned starts = 0;                      // bit i: cell i does not follow cell i - 1 along z
 
+    /// @pre count < lanes
+    void add(int leaf_cell, std::uint32_t first_particle, std::uint8_t slots_with_particles)
+    {
+        const auto i = static_cast<std::size_t>(count++);
+        cell[i] = leaf_cell;
+        node[i] = grid::tile_index(leaf_cell >> 6, leaf_cell >> 3 & 7, leaf_cell & 7);
+        begin[i] = first_particle;
+        filled[i] = slots_with_particles;
+        if (i == 0 || node[i] != node[i - 1] + 1) starts |= 1u << i;
+    }
     /// Particle in an occupied slot.
     std::size_t particle(int lane, int slot) const
     {
@@ -70,6 +79,10 @@ struct BlockPart
     int first() const { return part_lanes<T> == block_lanes<T> ? 0 : begin; }
     int count() const { return std::min(block.count - first(), part_lanes<T>); } // cells
     std::size_t lane(int i) const { return static_cast<std::size_t>(first() + i); }
+    /// Bits of the cells that begin a run along z.
+    unsigned starts() const { return (block.starts >> first() | 1u) & ((1u << count()) - 1u); }
+    /// A run along z fills every lane.
+    bool one_run() const { return count() == part_lanes<T> && starts() == 1; }
     int cell(int i) const { return block.cell[lane(i)]; }
     int node(int i) const { return block.node[lane(i)]; }
     bool has(int i, int slot) const { return block.has(first() + i, slot); }
@@ -84,69 +97,4 @@ struct BlockPart
         lanes.store(to[static_cast<std::size_t>(slot)].data() + first());
     }
 };
-
-/// Both vectors of the motion tile at the corners of every cell: [component][corner].
-///
-/// Values are relative to the part's first node, so that single precision sees differences and not the distance the
-/// body has travelled; slopes do not change by that.
-template <class T>
-[[gnu::always_inline]] inline void gather_corners(const grid::NodeMotion* tile, const BlockPart<T>& part,
-                                                  PartLanes<T> (&velocity)[3][8], PartLanes<T> (&displacement)[3][8])
-{
-    constexpr int size = line_piece<part_lanes<T>>;
-    using Piece = core::Pack<Real, size>;
-    Piece first[8 / size];
-    for (int n = 0; n < 8 / size; ++n) first[n] = Piece::load(tile[part.node(0)].velocity.data() + n * size);
-    for (int c = 0; c < 8; ++c) {
-        const int corner = grid::tile_index(c >> 2, c >> 1 & 1, c & 1);
-        PartLanes<T> line[8];
-        lines_to_lanes(
-            [&](int i, int place) __attribute__((always_inline)) {
-                return Piece::load(tile[part.node(i) + corner].velocity.data() + place) - first[place / size];
-            },
-            line);
-        for (int a = 0; a < 3; ++a) {
-            velocity[a][c] = line[a];
-            displacement[a][c] = line[4 + a];
-        }
-    }
-}
-
-namespace detail
-{
-/// Add numbers of the two neighbouring nodes n and n + 1, from `place` on.
-template <int N>
-[[gnu::always_inline]] inline void add_to_nodes(const core::Pack<Real, N>& piece, int place, grid::NodeForce* n)
-{
-    Real* target = n[place / 4].force.data() + place % 4;
-    (core::Pack<Real, N>::load(target) + piece).store(target);
-}
-[[gnu::always_inline]] inline void add_to_nodes(const core::Pack<Real, 8>& both, int, grid::NodeForce* n)
-{
-    add_to_nodes(core::Pack<Real, 4>{__builtin_shufflevector(both.v, both.v, 0, 1, 2, 3)}, 0, n);
-    add_to_nodes(core::Pack<Real, 4>{__builtin_shufflevector(both.v, both.v, 4, 5, 6, 7)}, 4, n);
-}
-} // namespace detail
-
-/// Add forces at the corners of every cell, [component][corner], to the nodes of a force tile, lane after lane.
-template <class T>
-[[gnu::always_inline]] inline void scatter_corners(const PartLanes<T> (&force)[3][8], const BlockPart<T>& part,
-                                                   grid::NodeForce* tile)
-{
-    const int count = part.count();
-    for (int pair = 0; pair < 4; ++pair) { // corners k = 0 and 1 are neighbours in the tile
-        const int corner = grid::tile_index(pair >> 1, pair & 1, 0);
-        PartLanes<T> line[8];
-        for (int a = 0; a < 3; ++a) {
-            line[a] = force[a][2 * pair];
-            line[4 + a] = force[a][2 * pair + 1];
-        }
-        line[3] = line[7] = PartLanes<T>(T(0));
-        lanes_to_lines(
-            line, [&](int i, int place, const core::Pack<Real, line_piece<part_lanes<T>>>& piece)
-                      __attribute__((always_inline)) {
-                          if (i < count) detail::add_to_nodes(piece, place, tile + part.node(i) + corner);
-                      });
-    }
-}
 } // namespace transfer

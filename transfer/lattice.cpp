@@ -84,17 +84,7 @@ void deal_cells(const grid::Levels& levels, const std::vector<std::uint8_t>& fil
             if (start[c] == start[c + 1]) continue;
             if (!open || table.block.back().count == block_lanes<T>) table.block.emplace_back();
             open = true;
-            CellBlock<T>& block = table.block.back();
-            const auto lane = static_cast<std::size_t>(block.count++);
-            block.cell[lane] = c;
-            block.node[lane] = grid::tile_index(c >> 6, c >> 3 & 7, c & 7);
-            block.begin[lane] = start[c];
-            block.filled[lane] = filled[n * grid::leaf_cells + static_cast<std::size_t>(c)];
-        }
-        if (open) { // lanes behind the last cell read the first one's nodes and have no particles
-            CellBlock<T>& block = table.block.back();
-            for (auto lane = static_cast<std::size_t>(block.count); lane < block.node.size(); ++lane)
-                block.node[lane] = block.node[0];
+            table.block.back().add(c, start[c], filled[n * grid::leaf_cells + static_cast<std::size_t>(c)]);
         }
     }
     table.start.push_back(static_cast<std::uint32_t>(table.block.size()));

@@ -2,6 +2,7 @@
 #include "transfer/block_work.h"
 #include "transfer/cell_squeeze.h"
 #include "transfer/lattice_squeeze.h"
+#include "transfer/leaf_columns.h"
 #include "transfer/solid_share.h"
 
 #include <cmath>
@@ -51,12 +52,12 @@ Real energy_of(const SlotLaw<T>& law, const BlockPart<T>& part, const BlockState
 }
 
 template <bool with_energy, class T>
-void survey_part(const Context& context, const particles::Particles& particles, const grid::NodeMotion* tile,
+void survey_part(const Context& context, const particles::Particles& particles, const MotionColumns<T>& motion,
                  const BlockPart<T>& part, const BlockState<T>& state, LatticeSurvey& survey)
 {
     using V = PartLanes<T>;
     V velocity[3][8], corner[3][8];
-    gather_corners(tile, part, velocity, corner);
+    gather_corners(motion, part, velocity, corner);
     Slopes<V> displacement[3];
     for (int a = 0; a < 3; ++a) displacement[a] = slopes_at_slots(corner[a]);
     SlotLaw<T> law[slots];
@@ -79,11 +80,21 @@ void survey_part(const Context& context, const particles::Particles& particles, 
 }
 
 template <bool with_energy, class T>
-void survey_block(const Context& context, const particles::Particles& particles, const grid::NodeMotion* tile,
+void survey_block(const Context& context, const particles::Particles& particles, const MotionColumns<T>& motion,
                   const CellBlock<T>& block, const BlockState<T>& state, LatticeSurvey& survey)
 {
     for (int first = 0; first < block.count; first += part_lanes<T>)
-        survey_part<with_energy>(context, particles, tile, BlockPart<T>{block, first}, state, survey);
+        survey_part<with_energy>(context, particles, motion, BlockPart<T>{block, first}, state, survey);
+}
+
+template <bool with_energy, class T>
+void survey_leaf(const Context& context, const particles::Particles& particles, const grid::Levels& levels,
+                 const BlockTable<T>& table, LatticeSurvey& survey)
+{
+    MotionColumns<T> motion;
+    read_motion(levels.motions(context.leaf), levels.used[context.leaf], motion);
+    for (std::uint32_t b = table.start[context.leaf]; b < table.start[context.leaf + 1]; ++b)
+        survey_block<with_energy>(context, particles, motion, table.block[b], table.state[b], survey);
 }
 
 template <bool with_energy>
@@ -96,9 +107,7 @@ void survey_leaves(const LawTable& laws, const Lattice& lattice, const particles
         [&](const auto& table) {
             core::parallel_for(survey.size(), [&](std::size_t n) {
                 const Context context{no_step, laws, lattice, Real(1) / levels.spacing(levels.leaves[n].level), n};
-                for (std::uint32_t b = table.start[n]; b < table.start[n + 1]; ++b)
-                    survey_block<with_energy>(context, particles, levels.motions(n), table.block[b], table.state[b],
-                                              survey[n]);
+                survey_leaf<with_energy>(context, particles, levels, table, survey[n]);
             });
         },
         lattice.blocks);

@@ -10,7 +10,7 @@
 
 namespace transfer
 {
-/// Yield stress of a material without plasticity: finite, so that the branch-free return needs no special case.
+/// Yield stress of a material without plasticity: finite, so that the return needs no special case.
 inline constexpr Real no_yield = 1e30;
 
 struct LawConstants

@@ -110,6 +110,27 @@ void expect_lanes_like_scalar(double tolerance)
     }
 }
 
+TEST(VonMises, an_elastic_lane_keeps_its_bits_beside_one_that_yields)
+{
+    using Lanes = core::Pack<double, core::native_lanes<double>>;
+    const auto constants = plastic_constants<Lanes>(steel(), steel_plastic());
+    Samples samples;
+    for (int k = 0; k < 20; ++k) {
+        core::Sym<Lanes> trial{};
+        for (int lane = 0; lane < Lanes::lanes; ++lane) {
+            const Sym stress = samples.tensor(lane == 0 ? 2000 : 50);
+            for (int i = 0; i < 6; ++i) trial[i].v[lane] = stress[i];
+        }
+        const auto step = radial_return(trial, Lanes(0.01), constants);
+        EXPECT_GT(step.work[0], 0);
+        for (int lane = 1; lane < Lanes::lanes; ++lane) {
+            for (int i = 0; i < 6; ++i) EXPECT_EQ(step.stress[i][lane], trial[i][lane]);
+            EXPECT_EQ(step.eq_plastic_strain[lane], 0.01);
+            EXPECT_EQ(step.work[lane], 0);
+        }
+    }
+}
+
 TEST(VonMises, double_lanes_agree_with_scalar)
 {
     expect_lanes_like_scalar<double>(1e-15);
