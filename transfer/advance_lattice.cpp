@@ -220,11 +220,12 @@ void advance_leaf(const Context& context, BlockTable<T>& table, particles::Parti
 {
     near_cells.clear();
     const grid::NodeBox& used = levels.used[context.leaf];
+    const std::uint32_t begin = table.start[context.leaf], end = table.start[context.leaf + 1];
     MotionColumns<T> motion;
-    read_motion(levels.motions(context.leaf), used, motion);
+    if (begin != end) read_motion(levels.motions(context.leaf), used, table.block[begin].node[0], motion);
     ForceColumns<T> force;
     clear<T>(force);
-    for (std::uint32_t b = table.start[context.leaf]; b < table.start[context.leaf + 1]; ++b) {
+    for (std::uint32_t b = begin; b < end; ++b) {
         prefetch(&table.state[b] + 1); // beyond the last one nothing is read
         for (int first = 0; first < table.block[b].count; first += part_lanes<T>)
             advance_part(context, BlockPart<T>{table.block[b], first}, motion, table.state[b], particles, force,

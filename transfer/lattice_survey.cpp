@@ -91,9 +91,11 @@ template <bool with_energy, class T>
 void survey_leaf(const Context& context, const particles::Particles& particles, const grid::Levels& levels,
                  const BlockTable<T>& table, LatticeSurvey& survey)
 {
+    const std::uint32_t begin = table.start[context.leaf], end = table.start[context.leaf + 1];
+    if (begin == end) return;
     MotionColumns<T> motion;
-    read_motion(levels.motions(context.leaf), levels.used[context.leaf], motion);
-    for (std::uint32_t b = table.start[context.leaf]; b < table.start[context.leaf + 1]; ++b)
+    read_motion(levels.motions(context.leaf), levels.used[context.leaf], table.block[begin].node[0], motion);
+    for (std::uint32_t b = begin; b < end; ++b)
         survey_block<with_energy>(context, particles, motion, table.block[b], table.state[b], survey);
 }
 

@@ -23,7 +23,7 @@ struct NodeColumn
     const T* at(int node) const { return number + margin + node; }
 };
 
-/// Relative to the leaf's first node, so that single precision sees differences and not the distance the body has
+/// Relative to one node of the leaf's, so that single precision sees differences and not the distance the body has
 /// travelled; slopes do not change by that.
 template <class T>
 struct MotionColumns
@@ -49,16 +49,16 @@ template <int N, class Visit>
 }
 } // namespace detail
 
-/// @param box  rows that are wanted; what the columns hold elsewhere has no meaning
+/// @param box   rows that are wanted; what the columns hold elsewhere has no meaning
+/// @param node0 a node that moves with the body, such as a corner of the leaf's first cell; motion is relative to it
 template <class T>
-[[gnu::noinline]] void read_motion(const grid::NodeMotion* tile, const grid::NodeBox& box, MotionColumns<T>& columns)
+[[gnu::noinline]] void read_motion(const grid::NodeMotion* tile, const grid::NodeBox& box, int node0,
+                                   MotionColumns<T>& columns)
 {
     constexpr int lanes = part_lanes<T>, size = line_piece<lanes>;
     using Piece = core::Pack<Real, size>;
-    if (box.upper[0] < box.lower[0]) return;
-    const Real* origin = tile[grid::tile_index(box.lower[0], box.lower[1], box.lower[2])].velocity.data();
     Piece first[8 / size];
-    for (int n = 0; n < 8 / size; ++n) first[n] = Piece::load(origin + n * size);
+    for (int n = 0; n < 8 / size; ++n) first[n] = Piece::load(tile[node0].velocity.data() + n * size);
     detail::for_pieces<lanes>(
         box, [&](int node) __attribute__((always_inline)) {
             PartLanes<T> line[8];
