@@ -86,6 +86,7 @@ struct BlockPart
     int cell(int i) const { return block.cell[lane(i)]; }
     int node(int i) const { return block.node[lane(i)]; }
     bool has(int i, int slot) const { return block.has(first() + i, slot); }
+    bool full(int i) const { return block.filled[lane(i)] == 0xff; }
     std::size_t particle(int i, int slot) const { return block.particle(first() + i, slot); }
 
     [[gnu::always_inline]] PartLanes<T> load(const typename BlockState<T>::Slots& from, int slot) const

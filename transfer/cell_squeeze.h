@@ -14,7 +14,7 @@ namespace transfer
 /// 1/4 and nu = 0.3, so dt < 2 / omega = 0.635 h / c_d; a full cell allows 0.734. Seen: 0.7 is unstable there.
 inline constexpr Real deformed_step_share = 0.63;
 
-/// The same for cells that share their nodes with full neighbours (methods.md A.6: 0.99 on assembled meshes): beyond it
+/// The same for full cells, which share their nodes with others (methods.md A.6: 0.99 on assembled meshes): beyond it
 /// a squeezed cell is unstable for certain.
 inline constexpr Real unstable_step_share = 1;
 

@@ -1,6 +1,5 @@
 #include "transfer/separate_particle.h"
 
-#include "transfer/cell_squeeze.h"
 #include "transfer/solid_share.h"
 
 namespace transfer
@@ -17,7 +16,7 @@ bool tangled(const PassOptions& options, const LawTable& laws, const SeparationI
     if (input.deformation == nullptr) return false;
     return laws.constants[input.material].wave_speed * cell_squeeze(*input.deformation) * options.dt *
                input.per_spacing >
-           unstable_step_share;
+           input.largest_share;
 }
 } // namespace
 

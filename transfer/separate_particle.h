@@ -3,6 +3,7 @@
 
 #include "core/tensor.h"
 #include "material/separation.h"
+#include "transfer/cell_squeeze.h"
 #include "transfer/passes.h"
 
 namespace transfer
@@ -18,7 +19,8 @@ struct SeparationInput
     Real volume_ratio = 1;                        // 1, J there
     const core::Mat<Real>* deformation = nullptr; // 1, F at the end of the step; null in the updated formulation
     std::uint8_t material = 0;
-    Real per_spacing = 1; // 1/mm, of its cell
+    Real per_spacing = 1;                     // 1/mm, of its cell
+    Real largest_share = unstable_step_share; // 1, of the squeezed cell's time, that the step may take
 };
 
 /// Without initial values: the kernels keep room for a block of them and fill what they need.

@@ -60,6 +60,7 @@ inline void enlist(const Context& context, const SeparationInput& input, const c
     batch.eq_plastic_strain[i] = input.step.eq_plastic_strain;
     batch.volume[i] = input.volume;
     batch.volume_ratio[i] = input.volume_ratio;
+    batch.largest_share[i] = input.largest_share;
     batch.crack[i] = &crack;
     sliders.out[i] = &out;
 }
@@ -115,7 +116,8 @@ template <class T>
                               volume / particles.rest_volume[p],
                               &f,
                               particles.material[p],
-                              context.per_spacing};
+                              context.per_spacing,
+                              part.full(i) ? unstable_step_share : deformed_step_share};
         if (crack.damage >= 1) {
             enlist(context, input, gradient, crack, out, sliders);
             continue;

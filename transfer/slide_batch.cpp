@@ -54,7 +54,7 @@ Mask sound(const PassOptions& options, const LawTable& laws, Real per_spacing, c
 {
     const V reach(laws.constants[batch.material].wave_speed * options.dt * per_spacing);
     return (load(batch.volume_ratio) > V(smallest_volume_ratio)) &
-           (reach * cell_squeeze(load_matrix(batch.deformation)) <= V(unstable_step_share));
+           (reach * cell_squeeze(load_matrix(batch.deformation)) <= load(batch.largest_share));
 }
 
 void write_cracks(const material::Faces<V>& faces, Mask moved, SlideBatch& batch)

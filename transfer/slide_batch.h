@@ -24,6 +24,7 @@ struct SlideBatch
     alignas(64) Row eq_plastic_strain;          // 1, likewise
     alignas(64) Row volume;                     // mm^3, middle of the step, without regard to openings
     alignas(64) Row volume_ratio;               // 1, J there
+    alignas(64) Row largest_share;              // 1, SeparationInput::largest_share
     std::array<core::Crack*, size> crack;
     alignas(64) Row plastic_work, decohesion_work; // mJ, of the step
 };

@@ -175,7 +175,7 @@ void yield(const transfer::LawConstants& law, const Strain& s, const Sym& strain
     mpm.plastic_work += s.volume * step.work;
 }
 
-void separate(Real dt, const Strain& s, Real spacing, NodalPoint& p, DenseNodal& mpm)
+void separate(Real dt, const Strain& s, Real spacing, bool full_cell, NodalPoint& p, DenseNodal& mpm)
 {
     transfer::PassOptions options;
     options.dt = dt;
@@ -186,7 +186,8 @@ void separate(Real dt, const Strain& s, Real spacing, NodalPoint& p, DenseNodal&
                                           s.ratio,
                                           &p.deformation_gradient,
                                           p.material,
-                                          1 / spacing};
+                                          1 / spacing,
+                                          full_cell ? transfer::unstable_step_share : transfer::deformed_step_share};
     const transfer::SeparationResult result = transfer::separate_particle(options, mpm.laws, input, *p.crack);
     p.stress = result.stress;
     p.eq_plastic_strain = result.eq_plastic_strain;
@@ -255,7 +256,7 @@ void update(DenseNodal& mpm, Real dt, int level)
         for (const std::size_t n : cell) {
             NodalPoint& p = points[n];
             if (p.crack) {
-                separate(dt, strain[n], spacing, p, mpm);
+                separate(dt, strain[n], spacing, cell.size() == 8, p, mpm);
                 continue;
             }
             const transfer::LawConstants& law = mpm.laws.constants[p.material];

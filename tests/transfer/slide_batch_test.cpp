@@ -97,6 +97,7 @@ Particle particle(Fate fate, int material, const transfer::PassOptions& options,
     p.input.volume = random.between(1e-3, 2e-3);
     p.input.material = static_cast<std::uint8_t>(material);
     p.input.per_spacing = per_spacing;
+    p.input.largest_share = random.whole(0, 1) == 0 ? transfer::unstable_step_share : transfer::deformed_step_share;
     return p;
 }
 
@@ -196,5 +197,34 @@ TEST(SlideBatch, tangled_particles_carry_nothing_and_keep_their_cracks)
         EXPECT_EQ(aside[0].result.plastic_work + aside[0].result.decohesion_work, 0);
         EXPECT_EQ(p.crack.normal, before.normal);
         EXPECT_EQ(p.crack.opening, before.opening);
+    }
+}
+
+// The step takes 0.8 of the time a wave needs through the squeezed cell: less than a full cell's nodes stand, more than
+// those of a particle alone in a cell at a cut edge do.
+TEST(SlideBatch, a_cut_cell_lets_go_before_a_full_one)
+{
+    const transfer::LawTable table = laws();
+    transfer::PassOptions options;
+    options.dt = 1e-5;
+    const Real per_spacing = 4;
+    Random random(33);
+    Particle p = particle(Fate::closes, 0, options, per_spacing, random);
+    p.crack.opening = 0;
+    p.deformation = core::identity<Real>();
+    p.deformation(2, 2) = table.constants[0].wave_speed * options.dt * per_spacing / 0.8;
+    p.input.deformation = &p.deformation;
+    const transfer::Lattice lattice;
+    const transfer::Context context{options, table, lattice, per_spacing, 0};
+    for (const Real share : {transfer::unstable_step_share, transfer::deformed_step_share}) {
+        p.input.largest_share = share;
+        core::Crack together = p.crack, alone = p.crack;
+        transfer::SetAside aside;
+        transfer::Sliders sliders;
+        transfer::enlist(context, p.input, p.gradient, together, aside, sliders);
+        transfer::finish(context, sliders);
+        const auto result = transfer::separate_particle(options, table, p.input, alone);
+        for (const core::Sym<Real>& stress : {aside.result.stress, result.stress})
+            EXPECT_EQ(core::contract(stress, stress) > 0, share == transfer::unstable_step_share);
     }
 }
