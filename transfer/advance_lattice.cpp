@@ -1,5 +1,4 @@
 #include "core/parallel.h"
-#include "grid/walls.h"
 #include "material/elastic.h"
 #include "material/onset.h"
 #include "material/rotation.h"
@@ -106,7 +105,7 @@ template <int S, class T>
     const auto share = [&]<int J>(std::integral_constant<int, J>) __attribute__((always_inline))
     {
         constexpr int place = slope_place(J, S);
-        constexpr bool first = first_slot(J, place) == S;
+        constexpr bool first = (S & (4 >> J)) == 0; // of the two slots that share it, the lower along J
         for (int i = 0; i < 3; ++i) {
             V& sum = flux[i].along[J][place];
             const V own = stress(i, 0) * cof(0, J) + stress(i, 1) * cof(1, J) + stress(i, 2) * cof(2, J);

@@ -132,6 +132,7 @@ Ball ball_about(const PassOptions& options, const grid::Levels& levels, const pa
                 const unsigned turned = (x.sign < 0 ? 1u : 0u) | (y.sign < 0 ? 2u : 0u) | (z.sign < 0 ? 4u : 0u);
                 collect(options, levels, particles, seen, static_cast<std::uint8_t>(turned), material, radius, ball);
             }
-    return ball.particle.empty() ? ball_of_cell(levels, particles, cell.slot, material) : ball;
+    if (ball.particle.empty()) return ball_of_cell(levels, particles, cell.slot, material);
+    return ball;
 }
 } // namespace transfer

@@ -79,11 +79,10 @@ void deal_cells(const grid::Levels& levels, const std::vector<std::uint8_t>& fil
     for (std::size_t n = 0; n < levels.leaves.size(); ++n) {
         table.start.push_back(static_cast<std::uint32_t>(table.block.size()));
         const std::uint32_t* start = levels.cell_start.data() + n * grid::leaf_cells;
-        bool open = false;
         for (int c = 0; c < grid::leaf_cells; ++c) {
             if (start[c] == start[c + 1]) continue;
-            if (!open || table.block.back().count == block_lanes<T>) table.block.emplace_back();
-            open = true;
+            if (table.block.size() == table.start.back() || table.block.back().count == block_lanes<T>)
+                table.block.emplace_back();
             table.block.back().add(c, start[c], filled[n * grid::leaf_cells + static_cast<std::size_t>(c)]);
         }
     }

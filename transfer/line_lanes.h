@@ -18,15 +18,6 @@ namespace detail
     const auto a = core::convert<float>(lower), b = core::convert<float>(upper);
     return {__builtin_shufflevector(a.v, b.v, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)};
 }
-[[gnu::always_inline]] inline core::Pack<Real, 8> lower_row(const core::Pack<float, 16>& both)
-{
-    return core::convert<Real>(core::Pack<float, 8>{__builtin_shufflevector(both.v, both.v, 0, 1, 2, 3, 4, 5, 6, 7)});
-}
-[[gnu::always_inline]] inline core::Pack<Real, 8> upper_row(const core::Pack<float, 16>& both)
-{
-    return core::convert<Real>(
-        core::Pack<float, 8>{__builtin_shufflevector(both.v, both.v, 8, 9, 10, 11, 12, 13, 14, 15)});
-}
 } // namespace detail
 
 /// Make N lines into eight vectors of N lanes; `piece(i, place)` are the `line_piece<N>` numbers of line i from `place`
@@ -49,22 +40,15 @@ template <class T, int N, class Piece>
 }
 
 /// The way back: `take(i, place, piece)` for every line i.
-template <class T, int N, class Take>
-[[gnu::always_inline]] inline void lanes_to_lines(const core::Pack<T, N> (&in)[8], const Take& take)
+template <int N, class Take>
+[[gnu::always_inline]] inline void lanes_to_lines(const core::Pack<Real, N> (&in)[8], const Take& take)
 {
     constexpr int size = line_piece<N>;
     for (int place = 0; place < 8; place += size) {
-        core::Pack<T, N> square[size];
+        core::Pack<Real, N> square[size];
         for (int i = 0; i < size; ++i) square[i] = in[place + i];
         core::transpose(square);
-        for (int i = 0; i < size; ++i) {
-            if constexpr (N == 16) {
-                take(i, place, detail::lower_row(square[i]));
-                take(i + 8, place, detail::upper_row(square[i]));
-            } else {
-                take(i, place, core::convert<Real>(square[i]));
-            }
-        }
+        for (int i = 0; i < size; ++i) take(i, place, square[i]);
     }
 }
 } // namespace transfer

@@ -19,14 +19,6 @@ constexpr int slope_place(int axis, int slot)
     return axis == 0 ? slot & 3 : axis == 1 ? (slot >> 1 & 2) | (slot & 1) : slot >> 1;
 }
 
-/// First of the slots that share a slope.
-constexpr int first_slot(int axis, int place)
-{
-    int slot = 0;
-    while (slope_place(axis, slot) != place) ++slot;
-    return slot;
-}
-
 /// Slopes of one component: [axis][slope_place].
 template <class V>
 struct Slopes
