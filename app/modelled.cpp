@@ -39,20 +39,22 @@ std::string onset_text(const material::Material& m)
 
 std::string cracks_text(const material::Material& m, const solver::State& state)
 {
-    std::size_t count[3] = {0, 0, 0};
+    std::size_t count[3] = {0, 0, 0}, crossed = 0;
     Real snap_back = 0;
     for (const core::Crack& crack : state.particles.cracks) {
         ++count[std::clamp(crack.mode - 1, 0, 2)];
+        crossed += crack.second_time >= 0 ? 1 : 0;
         snap_back = std::max(snap_back, crack.snap_back_ratio);
     }
     if (state.particles.cracks.empty())
         return fmt::format("{}: decohesion, no particle has started to separate", m.name);
     return fmt::format(
         "{}: decohesion; {} particles in opening, {} in shear, {} in mixed mode; largest L_e / L_crit {:.3g} "
-        "({})",
+        "({}){}",
         m.name, count[0], count[1], count[2], snap_back,
         m.decohesion->snap_back == material::SnapBack::brittle_drop ? "brittle drop beyond 1"
-                                                                    : "fracture energy raised to the floor beyond 1");
+                                                                    : "fracture energy raised to the floor beyond 1",
+        m.decohesion->second_crack ? fmt::format("; {} crossed by a second crack", crossed) : "");
 }
 } // namespace
 

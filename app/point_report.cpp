@@ -113,8 +113,9 @@ std::string crack_text(const material::Material& material, const solver::PointSt
                             stored_energy(material, crack), used);
     else
         text += fmt::format("G_f of the case {:.6g} N/mm, used {:.6g} N/mm\n", used / floor, used);
-    const std::string separated =
-        crack.damage >= 1 ? fmt::format(", separated at t = {:.6g} ms", crack.separation_time) : "";
+    std::string separated = crack.damage >= 1 ? fmt::format(", separated at t = {:.6g} ms", crack.separation_time) : "";
+    if (crack.second_time >= 0)
+        separated += fmt::format(", crossed by a second crack at t = {:.6g} ms", crack.second_time);
     return text + fmt::format("end          damage {:.4g}, opening {:.6g} mm, slip {:.6g} mm{}\n", crack.damage,
                               crack.opening, slip(crack), separated);
 }

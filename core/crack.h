@@ -25,6 +25,7 @@ struct Crack
     Real snap_back_ratio = 0;            // 1, B_s = L_e / L_crit before the policy
     Real onset_time = 0;                 // ms
     Real separation_time = -1;           // ms, -1 while damage < 1
+    Real second_time = -1;               // ms, when a second crack crossed this one; -1: none did
     std::array<Real, 2> drop_traction{}; // MPa, |tau_n|, |tau_t| at onset for the brittle ramp
     std::int32_t mode = 0;               // 1 opening, 2 shear, 3 mixed
     std::uint32_t particle_id = 0;       // 1, id of the particle it belongs to

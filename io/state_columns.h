@@ -20,7 +20,7 @@ void visit_array(const std::string& name, Array& array, Visit& visit)
 template <class Visit>
 void visit_members(particles::Crack& crack, Visit&& visit)
 {
-    static_assert(sizeof(particles::Crack) == 17 * sizeof(Real) + 2 * sizeof(std::int32_t));
+    static_assert(sizeof(particles::Crack) == 18 * sizeof(Real) + 2 * sizeof(std::int32_t));
     visit_array("normal", crack.normal, visit);
     visit("damage", crack.damage);
     visit("opening", crack.opening);
@@ -32,6 +32,7 @@ void visit_members(particles::Crack& crack, Visit&& visit)
     visit("snap_back_ratio", crack.snap_back_ratio);
     visit("onset_time", crack.onset_time);
     visit("separation_time", crack.separation_time);
+    visit("second_time", crack.second_time);
     visit_array("drop_traction", crack.drop_traction, visit);
     visit("mode", crack.mode);
     visit("particle_id", crack.particle_id);

@@ -39,6 +39,7 @@ struct Faces
     T eq_plastic_strain; // 1
     T decohesion_work;   // mJ/mm^3, of the step
     T plastic_work;      // mJ/mm^3, of the step
+    T crossed;           // 1 once a second crack has crossed this one, else 0
 };
 
 /// Stress after the traction gave way by `released`: sigma^tr - [lambda_L du_n I + mu (n du + du n)] / L_e with
@@ -87,6 +88,32 @@ constexpr Traction<T> unsupported(const SeparationLaw& law, const Faces<T>& face
     return {released_n, core::select(shear > T(0.0), T(1.0) - held / shear, T(0.0)) * trial.tangential};
 }
 
+/// Openings up to this share of L_e are closed: the step that closes a crack leaves rounding.
+inline constexpr double closed_opening = 1e-9;
+
+/// A second crack (docs/decisions/022). Where the first one stands open the stress that is left lies in its plane, with
+/// the principal values a >= b = I1/2 -+ sqrt(sigma:sigma/2 - I1^2/4) beside zero. When they pull more than they push
+/// and reach a strength, a > s_max or (a - min(b, 0))/2 > tau_max, the metal breaks there too: what it has stored is
+/// dissipated, and from then on it carries stress only while the first crack is closed.
+template <class T>
+constexpr void break_across(const SeparationLaw& law, Faces<T>& faces)
+{
+    const T zero(0.0), half(0.5), squared = core::contract(faces.stress, faces.stress);
+    const T middle = half * core::trace(faces.stress);
+    const T radius = core::sqrt(core::max(half * squared - middle * middle, zero));
+    const T high = middle + radius, low = core::min(middle - radius, zero);
+    const auto open = faces.opening > T(closed_opening) * faces.effective_length;
+    const auto fails = (high > T(law.second_tension)) | ((middle > zero) & (half * (high - low) > T(law.second_shear)));
+    const auto breaks = open & (faces.crossed <= zero) & fails;
+    const T third(1.0 / 3.0), bulk(law.lame.lame + law.lame.shear_two / 3), first = T(2.0) * middle;
+    const T stored =
+        half * (third * third * first * first / bulk + half * (squared - third * first * first) / T(law.shear_modulus));
+    faces.decohesion_work += core::select(breaks, stored, zero);
+    faces.crossed = core::select(breaks, T(1.0), faces.crossed);
+    const auto lets_go = open & (faces.crossed > zero);
+    for (T& component : faces.stress.s) component = core::select(lets_go, zero, component);
+}
+
 /// Full separation: relax the crack, return what is left to the yield surface, relax what the return put on the crack.
 /// The crack goes first, so that free opening is never taken for plastic strain.
 /// @param before  traction at the beginning of the step
@@ -104,14 +131,16 @@ constexpr void slide(const SeparationLaw& law, Traction<T> before, Faces<T>& fac
         before = {trial.normal - released.normal, trial.tangential - released.tangential};
     };
     relax(faces.effective_length > T(0.0)); // everywhere
-    if (!law.plastic) return;
-    const PlasticConstants<T> plastic{T(law.plastic->yield), T(law.plastic->hardening), T(law.plastic->shear_three),
-                                      T(law.plastic->per_overstress)};
-    const PlasticStep<T> returned = radial_return(faces.stress, faces.eq_plastic_strain, plastic);
-    faces.stress = returned.stress;
-    faces.eq_plastic_strain = returned.eq_plastic_strain;
-    faces.plastic_work = returned.work;
-    relax(returned.work > T(0.0));
+    if (law.plastic) {
+        const PlasticConstants<T> plastic{T(law.plastic->yield), T(law.plastic->hardening), T(law.plastic->shear_three),
+                                          T(law.plastic->per_overstress)};
+        const PlasticStep<T> returned = radial_return(faces.stress, faces.eq_plastic_strain, plastic);
+        faces.stress = returned.stress;
+        faces.eq_plastic_strain = returned.eq_plastic_strain;
+        faces.plastic_work = returned.work;
+        relax(returned.work > T(0.0));
+    }
+    if (law.second_crack) break_across(law, faces);
 }
 
 /// Turn the faces and the stress with the crack plane and add the elastic trial; the traction before is returned.

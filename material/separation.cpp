@@ -123,18 +123,29 @@ SeparationLaw separation_law(const Material& material)
         law.drop_speed = material.elastic.wave_speed() / decohesion.drop_transits;
     law.rotating_until = decohesion.rotating_until;
     law.friction = decohesion.friction;
+    law.second_crack = decohesion.second_crack;
+    law.second_tension = decohesion.s_max;
+    law.second_shear = decohesion.tau_max;
     return law;
 }
 
 DecohesionStep separate(const SeparationLaw& law, const core::Crack& crack, const StrainStep& step)
 {
     CLEAVE_EXPECTS(crack.effective_length > 0);
-    Faces<double> faces{
-        {crack.normal}, {crack.slip}, crack.opening, crack.effective_length, step.stress, step.eq_plastic_strain, 0, 0};
+    Faces<double> faces{{crack.normal},
+                        {crack.slip},
+                        crack.opening,
+                        crack.effective_length,
+                        step.stress,
+                        step.eq_plastic_strain,
+                        0,
+                        0,
+                        crack.second_time >= 0 ? 1.0 : 0.0};
     const Traction<double> before = begin_step(law, step.spin, step.strain, faces);
     core::Crack after = crack;
     if (crack.damage >= 1) {
         slide(law, before, faces);
+        if (crack.second_time < 0 && faces.crossed > 0) after.second_time = step.time;
     } else {
         const double turned = crack.damage < law.rotating_until && crack.mode == static_cast<int>(Mode::opening)
                                   ? rotate_to_strain(law, faces)

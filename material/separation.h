@@ -32,6 +32,9 @@ struct SeparationLaw
     double drop_speed = 0;                           // mm/ms, c_d / k: brittle ramp; 0: the softening law always
     double rotating_until = 0;                       // 1, damage up to which an opening crack follows the strain
     double friction = 0;                             // 1, Coulomb coefficient of a closed crack
+    bool second_crack = false;                       // stress along an open crack lets go at these strengths
+    double second_tension = 0;                       // MPa
+    double second_shear = 0;                         // MPa
 };
 
 /// @pre material.decohesion is set

@@ -14,9 +14,8 @@ bool tangled(const PassOptions& options, const LawTable& laws, const SeparationI
     if (crack.damage < 1) return false;
     if (!(input.volume_ratio > smallest_volume_ratio)) return true;
     if (input.deformation == nullptr) return false;
-    return laws.constants[input.material].wave_speed * cell_squeeze(*input.deformation) * options.dt *
-               input.per_spacing >
-           input.largest_share;
+    const Real reach = laws.constants[input.material].wave_speed * options.dt * input.per_spacing;
+    return step_share(reach, input.volume_ratio * solid_share(crack), *input.deformation) > input.largest_share;
 }
 } // namespace
 

@@ -11,6 +11,17 @@ namespace transfer
 /// A particle that is compressed further carries nothing any more (docs/decisions/007).
 inline constexpr Real smallest_volume_ratio = 0.05;
 
+/// Share of its cell's stable time that a step takes for a separated particle: c dt max |F^-T e_a| / h with c = c_d
+/// sqrt(max(1, J s)), s the solid share. The cell keeps its mass while its stress acts on the volume it has grown to,
+/// so one that is stretched along its crack grows stiff.
+/// @param reach  1, c_d dt / h
+/// @param metal  1, J s
+template <class T>
+T step_share(const T& reach, const T& metal, const core::Mat<T>& deformation)
+{
+    return reach * core::sqrt(core::max(metal, T(Real(1)))) * cell_squeeze(deformation);
+}
+
 /// What happens to the particle in the step.
 struct SeparationInput
 {

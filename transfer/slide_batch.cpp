@@ -31,7 +31,7 @@ core::Mat<V> load_matrix(const std::array<Row, N>& rows)
 struct CrackRows
 {
     alignas(64) std::array<Row, 3> normal, slip;
-    alignas(64) Row opening, length;
+    alignas(64) Row opening, length, crossed;
 };
 
 CrackRows read_cracks(const SlideBatch& batch)
@@ -45,19 +45,22 @@ CrackRows read_cracks(const SlideBatch& batch)
         }
         rows.opening[i] = crack.opening;
         rows.length[i] = crack.effective_length;
+        rows.crossed[i] = crack.second_time >= 0 ? 1 : 0;
     }
     return rows;
 }
 
 /// Lanes that still mean something: see separate_particle.
-Mask sound(const PassOptions& options, const LawTable& laws, Real per_spacing, const SlideBatch& batch)
+/// @param share  1, solid share
+Mask sound(const PassOptions& options, const LawTable& laws, Real per_spacing, const V& share, const SlideBatch& batch)
 {
     const V reach(laws.constants[batch.material].wave_speed * options.dt * per_spacing);
-    return (load(batch.volume_ratio) > V(smallest_volume_ratio)) &
-           (reach * cell_squeeze(load_matrix(batch.deformation)) <= load(batch.largest_share));
+    const V ratio = load(batch.volume_ratio);
+    return (ratio > V(smallest_volume_ratio)) &
+           (step_share(reach, ratio * share, load_matrix(batch.deformation)) <= load(batch.largest_share));
 }
 
-void write_cracks(const material::Faces<V>& faces, Mask moved, SlideBatch& batch)
+void write_cracks(const material::Faces<V>& faces, Mask moved, Real time, SlideBatch& batch)
 {
     for (int i = 0; i < batch.count; ++i) {
         if (!moved[i]) continue;
@@ -67,6 +70,7 @@ void write_cracks(const material::Faces<V>& faces, Mask moved, SlideBatch& batch
             crack.slip[static_cast<std::size_t>(a)] = faces.slip[a][i];
         }
         crack.opening = faces.opening[i];
+        if (crack.second_time < 0 && faces.crossed[i] > 0) crack.second_time = time;
     }
 }
 } // namespace
@@ -83,19 +87,21 @@ void slide_batch(const PassOptions& options, const LawTable& laws, Real per_spac
                              {},
                              load(batch.eq_plastic_strain),
                              zero,
-                             zero};
+                             zero,
+                             load(rows.crossed)};
     for (std::size_t n = 0; n < 6; ++n) faces.stress.s[n] = load(batch.stress[n]);
     const material::SeparationLaw& law = laws.separation[batch.material];
     const auto before =
         material::begin_step(law, material::spin_increment(gradient), core::symmetric_part(gradient), faces);
     material::slide(law, before, faces);
 
-    const Mask moved = sound(options, laws, per_spacing, batch);
-    const V volume = load(batch.volume) * solid_share(length, opening_before);
+    const V share = solid_share(length, opening_before);
+    const Mask moved = sound(options, laws, per_spacing, share, batch);
+    const V volume = load(batch.volume) * share;
     for (std::size_t n = 0; n < 6; ++n) core::select(moved, faces.stress.s[n], zero).store(batch.stress[n].data());
     core::select(moved, faces.eq_plastic_strain, load(batch.eq_plastic_strain)).store(batch.eq_plastic_strain.data());
     core::select(moved, faces.plastic_work * volume, zero).store(batch.plastic_work.data());
     core::select(moved, faces.decohesion_work * volume, zero).store(batch.decohesion_work.data());
-    write_cracks(faces, moved, batch);
+    write_cracks(faces, moved, options.time, batch);
 }
 } // namespace transfer

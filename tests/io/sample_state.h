@@ -67,6 +67,7 @@ inline void add_cracks(particles::Particles& particles)
         crack.snap_back_ratio = 0.3 + seed;
         crack.onset_time = 0.01 + seed;
         crack.separation_time = 0.02 + seed;
+        crack.second_time = 0.03 + seed;
         crack.drop_traction = {5 * seed, 6 * seed};
         crack.mode = 1 + static_cast<std::int32_t>(p / 10 % 3);
         crack.particle_id = particles.id[p];

@@ -467,6 +467,92 @@ TEST(Separate, willam_rotation_locks_no_further_than_the_yield_stress)
     EXPECT_LT(equivalent(probe.stress), 2 * 1.005);
 }
 
+/// An elastic particle whose crack across x has opened wide; its strengths are 1000 and 600 MPa.
+Probe wide_open(bool second_crack)
+{
+    Material material = tough();
+    material.decohesion->second_crack = second_crack;
+    Probe probe(material, opening_stress, fine);
+    pull(probe, probe.normal(), 0.01, 4000);
+    EXPECT_EQ(probe.crack.damage, 1);
+    EXPECT_NEAR(probe.normal()[0], 1, 1e-9);
+    return probe;
+}
+
+/// Until the faces meet, and by one hundredth of L_e further.
+void press_together(Probe& probe)
+{
+    pull(probe, probe.normal(), -(probe.crack.opening + 0.01 * probe.crack.effective_length), 4000);
+}
+
+/// Strain along y, the crack free to open, until a second crack or to the end.
+void stretch_along(Probe& probe, double increment, int steps)
+{
+    for (int i = 0; i < steps && probe.crack.second_time < 0; ++i) probe.strain(Sym{{0, increment, 0, 0, 0, 0}});
+}
+
+/// The stress along the open crack is plane, s_yy = 600 and s_zz = 600 MPa at onset. In tension along y the shear
+/// strength, (s_yy - 0)/2 = 600, is never met before s_yy = 1000.
+TEST(Separate, a_second_crack_lets_go_what_pulls_along_an_open_one)
+{
+    Probe probe = wide_open(true);
+    double before = 0, dissipated = 0;
+    Sym last{};
+    while (probe.crack.second_time < 0 && probe.time < 1) {
+        before = elastic_energy(steel(), probe.stress);
+        last = probe.stress;
+        dissipated = probe.decohesion_work;
+        stretch_along(probe, 1e-6, 1);
+    }
+    EXPECT_NEAR(last[1], 1000, 1);
+    EXPECT_NEAR((probe.decohesion_work - dissipated) / before, 1, 1e-3); // what was stored
+    EXPECT_EQ(probe.crack.second_time, probe.time);
+    EXPECT_EQ(norm(probe.stress), 0);
+    probe.strain(Sym{{0, 1e-2, 0, 0, 0, 0}});
+    EXPECT_EQ(norm(probe.stress), 0);
+    const double after = probe.decohesion_work;
+    press_together(probe);
+    EXPECT_LT(probe.normal_traction(), -1000);
+    EXPECT_EQ(probe.decohesion_work, after);
+}
+
+TEST(Separate, shear_breaks_an_open_crack_across_before_tension_does)
+{
+    Probe probe = wide_open(true);
+    probe.law.second_tension = 2000;
+    Sym last{};
+    while (probe.crack.second_time < 0 && probe.time < 1) {
+        last = probe.stress;
+        stretch_along(probe, 1e-6, 1);
+    }
+    EXPECT_NEAR(last[1], 1200, 1); // (s_yy - 0) / 2 = 600
+}
+
+TEST(Separate, what_pushes_along_an_open_crack_or_is_not_asked_for_does_not_break)
+{
+    Probe pushed = wide_open(true);
+    stretch_along(pushed, -1e-6, 20000);
+    EXPECT_LT(pushed.stress[1], -2000);
+    EXPECT_LT(pushed.crack.second_time, 0);
+    Probe old = wide_open(false);
+    stretch_along(old, 1e-6, 20000);
+    EXPECT_GT(old.stress[1], 2000);
+    EXPECT_LT(old.crack.second_time, 0);
+}
+
+TEST(Separate, a_closed_crack_does_not_break_across)
+{
+    Probe probe = wide_open(true);
+    press_together(probe);
+    ASSERT_LT(probe.normal_traction(), -1000);
+    const double pressure = probe.normal_traction();
+    for (int i = 0; i < 12000; ++i) // s_xx stays: nu (s_yy + s_zz) is made up for
+        probe.strain(Sym{{-0.3e-6, 1e-6, 0, 0, 0, 0}});
+    EXPECT_LT(probe.normal_traction(), 0.5 * pressure);
+    EXPECT_GT(probe.stress[1], 1000);
+    EXPECT_LT(probe.crack.second_time, 0);
+}
+
 /// B29: with equal energies the work does not depend on which of the modes the noise picked.
 TEST(Separate, energy_is_independent_of_the_mode_that_noise_picks)
 {

@@ -101,6 +101,18 @@ TEST(PointCommand, willam_locks_with_a_fixed_plane)
     EXPECT_NEAR(largest("1"), 2.73, 0.02);
 }
 
+/// B14: what one plane does not see, a second crack lets go as soon as the first one is through.
+TEST(PointCommand, willam_breaks_across)
+{
+    const support::Folder folder;
+    const test::Outcome outcome =
+        test::run({"point", cases + "willam.toml", "--set", "material.concrete.decohesion.second_crack=true", "-o",
+                   folder.path().string()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_NEAR(value_after(outcome.output, "largest "), 1.818, 0.002);
+    EXPECT_NEAR(value_after(outcome.output, "crossed by a second crack at t = "), 2.8044, 1e-3);
+}
+
 TEST(PointCommand, refuses_cases_and_directories_of_runs)
 {
     const test::Outcome run_case = test::run({"point", std::string(CLEAVE_SOURCE_DIR) + "/cases/tension/coupon.toml"});

@@ -24,6 +24,7 @@ transfer::LawTable laws()
     rough.decohesion->tau_max = 8;
     rough.decohesion->u0 = 1e-3;
     rough.decohesion->friction = 0.4;
+    rough.decohesion->second_crack = true;
     material::Material smooth = rough;
     smooth.elastic = {3e-3, 2500, 0.2};
     smooth.plastic.reset();
@@ -73,6 +74,7 @@ Particle particle(Fate fate, int material, const transfer::PassOptions& options,
     p.crack.effective_length = random.between(0.1, 0.5);
     p.crack.opening = random.whole(0, 3) == 0 ? 0 : random.between(0, 2e-3);
     p.crack.particle_id = static_cast<std::uint32_t>(random.whole(0, 1000));
+    p.crack.second_time = random.whole(0, 4) == 0 ? 0.5 : -1;
     for (Real& entry : p.gradient.m) entry = fate == Fate::stays ? 0 : random.between(-0.02, 0.02);
     p.deformation = near_identity(random, 0.1);
     p.input.volume_ratio = random.between(0.8, 1.2);
@@ -122,6 +124,7 @@ void expect_same(const core::Crack& a, const core::Crack& b)
     EXPECT_NEAR(a.opening, b.opening, 1e-12);
     EXPECT_EQ(a.damage, b.damage);
     EXPECT_EQ(a.effective_length, b.effective_length);
+    EXPECT_EQ(a.second_time, b.second_time);
     EXPECT_EQ(a.particle_id, b.particle_id);
 }
 } // namespace
@@ -136,7 +139,7 @@ TEST(SlideBatch, particles_together_are_the_particles_alone)
     const Real per_spacing = 4;
     const transfer::Context context{options, table, lattice, per_spacing, 0};
     Random random(31);
-    int carried = 0, closed = 0, rubbed = 0, yielded = 0;
+    int carried = 0, closed = 0, rubbed = 0, crossed = 0, yielded = 0;
     for (int round = 0; round < 60; ++round)
         for (int count = 1; count <= 17; ++count) {
             std::vector<Particle> particles;
@@ -164,6 +167,7 @@ TEST(SlideBatch, particles_together_are_the_particles_alone)
                 EXPECT_NEAR(aside[i].share, transfer::solid_share(alone[i].crack), 1e-12);
                 closed += before.opening > 0 && alone[i].crack.opening <= 0 ? 1 : 0;
                 rubbed += result.decohesion_work > 1e-9 ? 1 : 0;
+                crossed += alone[i].crack.second_time == options.time ? 1 : 0;
                 yielded += result.plastic_work > 1e-9 ? 1 : 0;
                 for (const Real s : result.stress.s) carried += s != 0 ? 1 : 0;
             }
@@ -172,6 +176,7 @@ TEST(SlideBatch, particles_together_are_the_particles_alone)
     EXPECT_GT(carried, 1000);
     EXPECT_GT(closed, 100);
     EXPECT_GT(rubbed, 100);
+    EXPECT_GT(crossed, 100);
     EXPECT_GT(yielded, 100);
 }
 
@@ -226,5 +231,43 @@ TEST(SlideBatch, a_cut_cell_lets_go_before_a_full_one)
         const auto result = transfer::separate_particle(options, table, p.input, alone);
         for (const core::Sym<Real>& stress : {aside.result.stress, result.stress})
             EXPECT_EQ(core::contract(stress, stress) > 0, share == transfer::unstable_step_share);
+    }
+}
+
+// Both cells are squeezed so that a step takes 0.8 of their time. The other one has grown six times along two axes: its
+// stress acts on twice the volume, at the same mass. If that is opening, it is void and does not count.
+TEST(SlideBatch, a_cell_that_has_grown_lets_go_before_one_that_has_not)
+{
+    const transfer::LawTable table = laws();
+    transfer::PassOptions options;
+    options.dt = 1e-5;
+    const Real per_spacing = 4;
+    Random random(34);
+    const transfer::Lattice lattice;
+    const transfer::Context context{options, table, lattice, per_spacing, 0};
+    struct Growth
+    {
+        Real along, opening;
+        bool carries;
+    };
+    for (const Growth& growth : {Growth{1, 0, true}, Growth{6, 0, false}, Growth{6, 2, true}}) {
+        Particle p = particle(Fate::stays, 0, options, per_spacing, random);
+        p.crack.opening = growth.opening * p.crack.effective_length;
+        p.crack.second_time = -1;
+        for (Real& entry : p.input.step.stress.s) entry *= 0.1; // too little for a second crack
+        p.deformation = core::identity<Real>();
+        p.deformation(0, 0) = p.deformation(1, 1) = growth.along;
+        p.deformation(2, 2) = table.constants[0].wave_speed * options.dt * per_spacing / 0.8;
+        p.input.volume_ratio = core::determinant(p.deformation);
+        p.input.largest_share = transfer::unstable_step_share;
+        p.input.deformation = &p.deformation;
+        core::Crack together = p.crack, alone = p.crack;
+        transfer::SetAside aside;
+        transfer::Sliders sliders;
+        transfer::enlist(context, p.input, p.gradient, together, aside, sliders);
+        transfer::finish(context, sliders);
+        const auto result = transfer::separate_particle(options, table, p.input, alone);
+        for (const core::Sym<Real>& stress : {aside.result.stress, result.stress})
+            EXPECT_EQ(core::contract(stress, stress) > 0, growth.carries) << growth.along << " " << growth.opening;
     }
 }
