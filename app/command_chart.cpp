@@ -143,7 +143,8 @@ int chart(const Options& options)
                    chart_page(chart.suite.title.empty() ? "Error against cost" : chart.suite.title, rows, titles(chart),
                               pictures(chart, directory)));
     io::write_file(directory / "chart.md", chart_markdown(rows));
-    fmt::print("\n{}\n{} and chart.csv, chart.md, plots/\n", chart_text(rows), (directory / "chart.html").string());
+    fmt::print("\n{}\n{} and chart.csv, chart.md{}\n", chart_text(rows), (directory / "chart.html").string(),
+               fs::exists(directory / "plots") ? ", plots/" : "");
     if (end == PoolEnd::all_done) return exit_done;
     fmt::print("stopped; the same command goes on\n");
     return exit_stopped;
