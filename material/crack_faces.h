@@ -105,9 +105,7 @@ constexpr void break_across(const SeparationLaw& law, Faces<T>& faces)
     const auto open = faces.opening > T(closed_opening) * faces.effective_length;
     const auto fails = (high > T(law.second_tension)) | ((middle > zero) & (half * (high - low) > T(law.second_shear)));
     const auto breaks = open & (faces.crossed <= zero) & fails;
-    const T third(1.0 / 3.0), bulk(law.lame.lame + law.lame.shear_two / 3), first = T(2.0) * middle;
-    const T stored =
-        half * (third * third * first * first / bulk + half * (squared - third * first * first) / T(law.shear_modulus));
+    const T stored = stored_energy(T(law.lame.lame), T(law.shear_modulus), faces.stress);
     faces.decohesion_work += core::select(breaks, stored, zero);
     faces.crossed = core::select(breaks, T(1.0), faces.crossed);
     const auto lets_go = open & (faces.crossed > zero);

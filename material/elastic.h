@@ -34,6 +34,18 @@ constexpr core::Sym<T> elastic_trial(const core::Sym<T>& stress, const core::Sym
              stress[4] + elastic.shear_two * e[4], stress[5] + elastic.shear_two * e[5]}};
 }
 
-/// Stored energy per volume [mJ/mm^3] of an isotropic elastic stress: p^2 / (2 K) + J2 / (2 mu).
+/// Stored energy per volume [mJ/mm^3] of an isotropic elastic stress [MPa]: p^2 / (2 K) + J2 / (2 mu), K = lambda + 2/3
+/// mu.
+template <class T>
+constexpr T stored_energy(const T& lame, const T& shear, const core::Sym<T>& stress)
+{
+    const T mean = core::trace(stress) * T(1.0 / 3.0), half(0.5);
+    core::Sym<T> deviator = stress;
+    for (int a = 0; a < 3; ++a) deviator[a] -= mean;
+    const T bulk = lame + shear * T(2.0 / 3.0);
+    return half * mean * mean / bulk + half * half * core::contract(deviator, deviator) / shear;
+}
+
+/// The same for the constants of a case.
 double elastic_energy(const Elastic& elastic, const core::Sym<double>& stress);
 } // namespace material

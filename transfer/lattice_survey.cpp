@@ -1,4 +1,5 @@
 #include "core/parallel.h"
+#include "material/elastic.h"
 #include "transfer/block_work.h"
 #include "transfer/cell_squeeze.h"
 #include "transfer/lattice_squeeze.h"
@@ -11,18 +12,6 @@ namespace transfer
 {
 namespace
 {
-/// Stored energy per volume [mJ/mm^3] for lanes: p^2 / (2 K) + J2 / (2 mu), as material::elastic_energy.
-template <class T>
-PartLanes<T> stored(const SlotLaw<T>& law, const core::Sym<PartLanes<T>>& stress)
-{
-    using V = PartLanes<T>;
-    const V mean = core::trace(stress) * V(Real(1) / 3), half(Real(0.5));
-    core::Sym<V> deviator = stress;
-    for (int a = 0; a < 3; ++a) deviator[a] -= mean;
-    const V bulk = law.lame + law.shear * V(Real(2) / 3);
-    return half * mean * mean / bulk + half * half * core::contract(deviator, deviator) / law.shear;
-}
-
 /// Metal part of the volumes, and zero squeeze where a separated particle transmits nothing.
 template <class T>
 [[gnu::noinline]] void regard_cracks(const Context& context, const BlockPart<T>& part,
@@ -48,7 +37,8 @@ Real energy_of(const SlotLaw<T>& law, const BlockPart<T>& part, const BlockState
     using V = PartLanes<T>;
     core::Sym<V> stress;
     for (std::size_t n = 0; n < 6; ++n) stress.s[n] = part.load(state.stress[n], slot);
-    return static_cast<Real>(core::sum(core::select(volume > V(T(0)), volume * stored(law, stress), V(T(0)))));
+    return static_cast<Real>(core::sum(
+        core::select(volume > V(T(0)), volume * material::stored_energy(law.lame, law.shear, stress), V(T(0)))));
 }
 
 template <bool with_energy, class T>

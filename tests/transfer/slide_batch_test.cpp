@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 using support::Random;
@@ -127,6 +128,17 @@ void expect_same(const core::Crack& a, const core::Crack& b)
     EXPECT_EQ(a.second_time, b.second_time);
     EXPECT_EQ(a.particle_id, b.particle_id);
 }
+/// Stress after the step of a particle in the batch, and of the same particle alone.
+std::array<core::Sym<Real>, 2> stresses_both_ways(const transfer::Context& context, const Particle& p)
+{
+    core::Crack together = p.crack, alone = p.crack;
+    transfer::SetAside aside;
+    transfer::Sliders sliders;
+    transfer::enlist(context, p.input, p.gradient, together, aside, sliders);
+    transfer::finish(context, sliders);
+    const auto result = transfer::separate_particle(context.options, context.laws, p.input, alone);
+    return {aside.result.stress, result.stress};
+}
 } // namespace
 
 TEST(SlideBatch, particles_together_are_the_particles_alone)
@@ -223,13 +235,7 @@ TEST(SlideBatch, a_cut_cell_lets_go_before_a_full_one)
     const transfer::Context context{options, table, lattice, per_spacing, 0};
     for (const Real share : {transfer::unstable_step_share, transfer::deformed_step_share}) {
         p.input.largest_share = share;
-        core::Crack together = p.crack, alone = p.crack;
-        transfer::SetAside aside;
-        transfer::Sliders sliders;
-        transfer::enlist(context, p.input, p.gradient, together, aside, sliders);
-        transfer::finish(context, sliders);
-        const auto result = transfer::separate_particle(options, table, p.input, alone);
-        for (const core::Sym<Real>& stress : {aside.result.stress, result.stress})
+        for (const core::Sym<Real>& stress : stresses_both_ways(context, p))
             EXPECT_EQ(core::contract(stress, stress) > 0, share == transfer::unstable_step_share);
     }
 }
@@ -261,13 +267,7 @@ TEST(SlideBatch, a_cell_that_has_grown_lets_go_before_one_that_has_not)
         p.input.volume_ratio = core::determinant(p.deformation);
         p.input.largest_share = transfer::unstable_step_share;
         p.input.deformation = &p.deformation;
-        core::Crack together = p.crack, alone = p.crack;
-        transfer::SetAside aside;
-        transfer::Sliders sliders;
-        transfer::enlist(context, p.input, p.gradient, together, aside, sliders);
-        transfer::finish(context, sliders);
-        const auto result = transfer::separate_particle(options, table, p.input, alone);
-        for (const core::Sym<Real>& stress : {aside.result.stress, result.stress})
+        for (const core::Sym<Real>& stress : stresses_both_ways(context, p))
             EXPECT_EQ(core::contract(stress, stress) > 0, growth.carries) << growth.along << " " << growth.opening;
     }
 }
