@@ -255,14 +255,16 @@ inline void unpack_gradients(const Kinematics* k, std::size_t count, core::Mat<R
 } // namespace detail
 
 /// Advance the particles [begin, end) of one cell; `move(first, count, k)` is stage one of a chunk.
-template <class Move>
+/// @tparam Plain  the cell is: the loops have a length the compiler knows
+template <bool Plain = false, class Move>
 [[gnu::always_inline]] inline void
 advance_group(const PassOptions& options, const LawTable& laws, const CellFrame& frame, std::size_t begin,
               std::size_t end, particles::Particles& particles, LeafOutcome& outcome, const Move& move)
 {
-    using detail::group_size;
+    constexpr std::size_t group_size = Plain ? plain_size : detail::group_size;
+    if constexpr (Plain) end = begin + plain_size;
     for (std::size_t first = begin; first < end; first += group_size) {
-        const std::size_t last = std::min(end, first + group_size);
+        const std::size_t last = Plain ? end : std::min(end, first + group_size);
         detail::Kinematics k[group_size / Lanes::lanes];
         Real volume = 0;
         Real dilated = 0;
@@ -279,7 +281,7 @@ advance_group(const PassOptions& options, const LawTable& laws, const CellFrame&
         c = 0;
         for (std::size_t p = first; p < last; p += Lanes::lanes, ++c) {
             const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
-            count == Lanes::lanes ? detail::update_stress<false>(options, laws, frame.per_spacing, k[c],
+            count == Lanes::lanes ? detail::update_stress<Plain>(options, laws, frame.per_spacing, k[c],
                                                                  mean_dilatation, p, Lanes::lanes, particles, outcome)
                                   : detail::update_stress<false>(options, laws, frame.per_spacing, k[c],
                                                                  mean_dilatation, p, count, particles, outcome);

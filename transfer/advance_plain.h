@@ -8,23 +8,6 @@
 
 namespace transfer
 {
-/// Most cells of most steps are plain.
-inline bool is_plain(const particles::Particles& particles, std::size_t begin, std::size_t end)
-{
-    if (end - begin != plain_size) return false;
-    const auto eight = [&](const std::vector<std::uint8_t>& flags) {
-        std::uint64_t bytes;
-        std::memcpy(&bytes, flags.data() + begin, sizeof bytes);
-        return bytes;
-    };
-    const std::uint64_t law = eight(particles.material);
-    if (eight(particles.away) != 0 || law != (law & 0xff) * 0x0101010101010101) return false;
-    if (particles.cracks.empty()) return true;
-    std::int32_t all = -1; // the sign bit survives only if every index is negative
-    for (std::size_t p = begin; p < end; ++p) all &= particles.crack[p];
-    return all < 0;
-}
-
 /// Advance the eight particles from `begin` on, and add them to the leaf's sums.
 /// @pre is_plain(particles, begin, begin + plain_size)
 template <Formulation F, Transfer T, StressUpdate S>

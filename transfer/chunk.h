@@ -10,6 +10,8 @@
 #include "transfer/scheme.h"
 #include "transfer/solid_share.h"
 
+#include <cstring>
+
 namespace transfer
 {
 using Lanes = core::Pack<Real, core::native_lanes<Real>>;
@@ -109,11 +111,32 @@ template <class Test>
     return mask;
 }
 
+/// The flags of a whole chunk as one number.
+inline std::uint64_t packed_flags(const std::uint8_t* flags)
+{
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, flags, Lanes::lanes);
+    return bytes;
+}
+
 inline bool any_set(const std::uint8_t* flags, int count)
 {
+    if (count == Lanes::lanes) return packed_flags(flags) != 0;
     std::uint8_t any = 0;
     for (int i = 0; i < count; ++i) any = static_cast<std::uint8_t>(any | flags[i]);
     return any != 0;
+}
+
+/// The first `count` flags are equal.
+inline bool all_equal(const std::uint8_t* flags, int count)
+{
+    if (count == Lanes::lanes) {
+        constexpr std::uint64_t ones = 0x0101010101010101 >> (64 - 8 * Lanes::lanes);
+        return packed_flags(flags) == flags[0] * ones;
+    }
+    bool same = true;
+    for (int i = 1; i < count; ++i) same = same && flags[i] == flags[0];
+    return same;
 }
 
 /// Whom a visit to a cell serves.
@@ -124,9 +147,24 @@ enum class Visitors
     everyone,  // all particles stored under the cell (gimp)
 };
 
-/// Particles of a plain cell (transfer/advance_plain.h): functions with `Plain` set know that every lane is a particle
-/// at home, that one law serves all and nobody has decohesion state.
+/// Particles of a plain cell: functions with `Plain` set know that every lane is a particle at home, that one law
+/// serves all and nobody has decohesion state.
 inline constexpr int plain_size = 8;
+
+/// Most cells of most steps are plain.
+inline bool is_plain(const particles::Particles& particles, std::size_t begin, std::size_t end)
+{
+    if (end - begin != plain_size) return false;
+    for (std::size_t p = begin; p < end; p += Lanes::lanes)
+        if (any_set(particles.away.data() + p, Lanes::lanes) ||
+            !all_equal(particles.material.data() + p, Lanes::lanes) ||
+            particles.material[p] != particles.material[begin])
+            return false;
+    if (particles.cracks.empty()) return true;
+    std::int32_t all = -1; // the sign bit survives only if every index is negative
+    for (std::size_t p = begin; p < end; ++p) all &= particles.crack[p];
+    return all < 0;
+}
 
 /// Every lane.
 inline LaneMask all_lanes()
@@ -178,16 +216,13 @@ template <bool Plain = false>
                                                  std::size_t begin, int count)
 {
     const std::uint8_t* index = particles.material.data() + begin;
-    bool same = true;
-    if constexpr (!Plain)
-        for (int i = 1; i < count; ++i) same = same && index[i] == index[0];
     const LawConstants& c = laws.constants[index[0]];
     const Lanes zero(Real(0));
     LawLanes lanes{Lanes(c.lame),           Lanes(c.shear),
                    Lanes(c.yield),          Lanes(c.hardening),
                    Lanes(c.per_overstress), Lanes(c.tensile_onset),
                    Lanes(c.shear_onset),    c.averaged_dilatation ? all_lanes() : zero < zero};
-    if (same) return lanes;
+    if (Plain || all_equal(index, count)) return lanes;
     mix_laws(laws, index, count, lanes);
     return lanes;
 }

@@ -7,14 +7,38 @@ namespace transfer
 {
 namespace
 {
+/// Stage one of a chunk.
+template <Transfer T, StressUpdate S, bool Plain>
+[[gnu::always_inline]] inline void move_boxes(const PassOptions& options, const LawTable& laws, const BoxFrame& frame,
+                                              const CellFrame& cell, std::size_t p, int count, BoxSource& source,
+                                              particles::Particles& particles, LeafOutcome& outcome,
+                                              detail::Kinematics& k)
+{
+    constexpr BoxRead read = S == StressUpdate::musl ? BoxRead::change_slopes
+                             : T == Transfer::apic   ? BoxRead::affine
+                                                     : BoxRead::velocity_slopes;
+    BoxWeights weights;
+    box_weights<read == BoxRead::affine>(frame, particles, p, count, weights);
+    BoxChunk chunk;
+    gather_boxes<read>(weights, count, source, chunk);
+    const auto x = load_all<core::Vec<Lanes>>(particles.position, p, count);
+    k.here = present<Formulation::updated, Plain>(Visitors::everyone, particles, p, count);
+    const core::Vec<Lanes> velocity{
+        {Lanes::load(chunk.value[0]), Lanes::load(chunk.value[1]), Lanes::load(chunk.value[2])}};
+    core::Mat<Lanes> gradient = matrix_lanes(chunk.gradient);
+    core::Mat<Lanes> affine;
+    if constexpr (read == BoxRead::affine) affine = matrix_lanes(chunk.affine);
+    Given given; // the scatter reads the columns
+    const auto change = [&](int a) { return Lanes::load(chunk.value[change_column + a]); };
+    detail::carry<Formulation::updated, T, S, Plain>(options, laws, cell,
+                                                     Plain ? Visitors::residents : Visitors::everyone, x, velocity,
+                                                     gradient, affine, change, p, count, particles, outcome, k, given);
+}
+
 template <Transfer T, StressUpdate S>
 void advance_leaf(const PassOptions& options, const LawTable& laws, std::size_t leaf, const ReachMap& map,
                   const grid::Levels& levels, const Boxes& boxes, particles::Particles& particles, LeafOutcome& outcome)
 {
-    constexpr bool last = S == StressUpdate::usl;
-    constexpr BoxRead read = !last                 ? BoxRead::change_slopes
-                             : T == Transfer::apic ? BoxRead::affine
-                                                   : BoxRead::velocity_slopes;
     const std::uint32_t* start = levels.cell_start.data() + leaf * grid::leaf_cells;
     const LeafFrame leaf_of_cells = leaf_frame(levels, leaf);
     const BoxFrame frame = box_frame(options, levels, leaf);
@@ -24,24 +48,15 @@ void advance_leaf(const PassOptions& options, const LawTable& laws, std::size_t 
     for (int c = 0; c < grid::leaf_cells; ++c) {
         if (start[c] == start[c + 1]) continue;
         const CellFrame cell = cell_frame(leaf_of_cells, c);
-        const auto move = [&](std::size_t p, int count, detail::Kinematics& k) {
-            BoxWeights weights;
-            box_weights<read == BoxRead::affine>(frame, particles, p, count, weights);
-            BoxChunk chunk;
-            gather_boxes<read>(weights, count, source, chunk);
-            const auto x = load_all<core::Vec<Lanes>>(particles.position, p, count);
-            k.here = present<Formulation::updated>(Visitors::everyone, particles, p, count);
-            const core::Vec<Lanes> velocity{
-                {Lanes::load(chunk.value[0]), Lanes::load(chunk.value[1]), Lanes::load(chunk.value[2])}};
-            core::Mat<Lanes> gradient = matrix_lanes(chunk.gradient);
-            core::Mat<Lanes> affine;
-            if constexpr (read == BoxRead::affine) affine = matrix_lanes(chunk.affine);
-            Given given; // the scatter reads the columns
-            const auto change = [&](int a) { return Lanes::load(chunk.value[change_column + a]); };
-            detail::carry<Formulation::updated, T, S>(options, laws, cell, Visitors::everyone, x, velocity, gradient,
-                                                      affine, change, p, count, particles, outcome, k, given);
+        const auto advance = [&]<bool Plain>() {
+            advance_group<Plain>(
+                options, laws, cell, start[c], start[c + 1], particles,
+                outcome, [&](std::size_t p, int count, detail::Kinematics& k) __attribute__((always_inline)) {
+                    move_boxes<T, S, Plain>(options, laws, frame, cell, p, count, source, particles, outcome, k);
+                });
         };
-        advance_group(options, laws, cell, start[c], start[c + 1], particles, outcome, move);
+        is_plain(particles, start[c], start[c + 1]) ? advance.template operator()<true>()
+                                                    : advance.template operator()<false>();
     }
 }
 

@@ -53,7 +53,8 @@ template <BoxRead Read>
 
 /// Read the first `count` boxes of `weights`. A box that the map does not serve is the source's next cut one.
 template <BoxRead Read>
-[[gnu::noinline]] void gather_boxes(const BoxWeights& weights, int count, BoxSource& source, BoxChunk& chunk)
+[[gnu::always_inline]] inline void gather_boxes(const BoxWeights& weights, int count, BoxSource& source,
+                                                BoxChunk& chunk)
 {
     constexpr bool affine = Read == BoxRead::affine;
     NodeLine line[BoxChunk::lanes][box_lines(Read)];

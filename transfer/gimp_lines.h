@@ -176,10 +176,28 @@ struct GiftLines
     NodeLine base, slope[3];
 };
 
-/// Add box i to the sums in reach; `node` is its lowest one.
-template <bool Affine, BoxGive Give, int X, int Y, int Z>
-[[gnu::noinline]] void scatter_box(const BoxWeights& w, int i, const GiftLines& gift, grid::NodeSum* node)
+/// Lines a gift is stored in: all four, or the base and one with the slopes along y and z in its halves.
+inline constexpr int gift_lines(bool affine)
 {
+    return affine ? 4 : 2;
+}
+
+namespace detail
+{
+template <bool Affine>
+[[gnu::always_inline]] inline GiftLines unfolded(const NodeLine* line)
+{
+    if constexpr (Affine) return {line[0], {line[1], line[2], line[3]}};
+    const NodeLine zero(Real(0));
+    return {line[0], {zero, lower_halves(zero, line[1]), halves(zero, line[1])}};
+}
+} // namespace detail
+
+/// Add box i, whose gift is stored in `line`, to the sums in reach; `node` is its lowest one.
+template <bool Affine, BoxGive Give, int X, int Y, int Z>
+[[gnu::noinline]] void scatter_box(const BoxWeights& w, int i, const NodeLine* line, grid::NodeSum* node)
+{
+    const GiftLines gift = detail::unfolded<Affine>(line);
     constexpr bool slopes = Affine || Give == BoxGive::all;
     Lanes z_weight[Z], y_weight[Y];
     NodeLine z_slope[Z], y_slope[Y];
@@ -212,9 +230,9 @@ template <bool Affine, BoxGive Give, int X, int Y, int Z>
             }
             for (int c = 0; c < Z; ++c) {
                 Real* target = &node[(a * reach_side + b) * reach_side + c].mass;
-                NodeLine line = NodeLine::load(target) + z_weight[c] * base_b;
-                if constexpr (slopes) line += z_slope[c] * z_b;
-                line.store(target);
+                NodeLine sum = NodeLine::load(target) + z_weight[c] * base_b;
+                if constexpr (slopes) sum += z_slope[c] * z_b;
+                sum.store(target);
             }
         }
     }

@@ -5,56 +5,52 @@
 
 namespace transfer
 {
-/// The gifts of up to `Lanes::lanes` particles. First by quantity, then `turn` makes them the lines of each particle.
+/// The gifts of up to `Lanes::lanes` particles by quantity, lanes = particles.
 template <Transfer T>
-struct BoxStage
+struct BoxRows
 {
     static constexpr bool affine = T == Transfer::apic;
-    static constexpr int lines = affine ? 4 : 2;
-    alignas(64) Real row[lines][8][Lanes::lanes]; // [line][quantity][particle]
-    NodeLine line[Lanes::lanes][lines];
+    Lanes row[gift_lines(affine)][8]; // [line][quantity]
 
-    /// Zero all but what `all` or the momentum alone writes; with APIC no force follows the base line.
-    explicit BoxStage(BoxGive give)
+    /// Zero all but what `all` or the momentum alone sets; with APIC no force follows the base line.
+    [[gnu::always_inline]] explicit BoxRows(BoxGive give)
     {
-        for (int n = 0; n < lines; ++n)
+        for (int n = 0; n < gift_lines(affine); ++n)
             for (int q = 0; q < 8; ++q)
                 if (give == BoxGive::momentum || q % 4 == 3 || (affine && (q == 0 || (n == 0 && q >= 4))))
-                    Lanes(Real(0)).store(row[n][q]);
+                    row[n][q] = Lanes(Real(0));
     }
 
-    Real* mass() { return row[0][0]; }
-    Real* momentum(std::size_t a) { return row[0][1 + a]; }
+    Lanes& mass() { return row[0][0]; }
+    Lanes& momentum(int a) { return row[0][1 + a]; }
     /// m C(a, b)
-    Real* affine_momentum(std::size_t a, std::size_t b) { return row[1 + b][1 + a]; }
+    Lanes& affine_momentum(int a, int b) { return row[1 + b][1 + a]; }
     /// -V sigma(a, b). Without APIC the three slopes are half lines: the one along x follows mass and momentum.
-    Real* flux(std::size_t a, std::size_t b)
+    Lanes& flux(int a, int b)
     {
         if constexpr (affine) return row[1 + b][4 + a];
         return row[(b + 1) / 2][a + (b == 1 ? 0 : 4)];
     }
+};
 
-    void turn()
+/// The same as lines, particle by particle.
+template <Transfer T>
+struct BoxStage
+{
+    static constexpr bool affine = T == Transfer::apic;
+    NodeLine line[Lanes::lanes][gift_lines(affine)];
+
+    [[gnu::always_inline]] explicit BoxStage(const BoxRows<T>& rows)
     {
-        for (int n = 0; n < lines; ++n) {
-            Lanes quantity[8];
-            for (int q = 0; q < 8; ++q) quantity[q] = Lanes::load(row[n][q]);
-            lanes_to_lines(quantity, [&](int i, int place, const Lanes& piece) {
+        for (int n = 0; n < gift_lines(affine); ++n)
+            lanes_to_lines(rows.row[n], [&](int i, int place, const Lanes& piece) {
                 line[i][n].part[place / NodeLine::piece] = piece;
             });
-        }
-    }
-
-    GiftLines of(int i) const
-    {
-        if constexpr (affine) return {line[i][0], {line[i][1], line[i][2], line[i][3]}};
-        const NodeLine zero(Real(0)), both = line[i][1];
-        return {line[i][0], {zero, detail::lower_halves(zero, both), detail::halves(zero, both)}};
     }
 
     BoxGift gift(int i) const
     {
-        GiftLines from = of(i);
+        GiftLines from = detail::unfolded<affine>(line[i]);
         if constexpr (!affine) {
             const NodeLine zero(Real(0));
             from.slope[0] = detail::halves(zero, from.base);
@@ -69,14 +65,15 @@ struct BoxStage
 
 /// Momentum and the affine part of it.
 template <Transfer T>
-void stage_momentum(const particles::Particles& particles, std::size_t begin, int count, BoxStage<T>& stage)
+[[gnu::always_inline]] inline void stage_momentum(const particles::Particles& particles, std::size_t begin, int count,
+                                                  Lanes mass, const core::Vec<Lanes>& velocity, BoxRows<T>& rows)
 {
-    const Lanes m = load(particles.mass, begin, count);
-    for (std::size_t a = 0; a < 3; ++a) {
-        (m * load(particles.velocity[a], begin, count)).store(stage.momentum(a));
+    for (int a = 0; a < 3; ++a) {
+        rows.momentum(a) = mass * velocity[a];
         if constexpr (T == Transfer::apic)
-            for (std::size_t b = 0; b < 3; ++b)
-                (m * load(particles.affine[3 * a + b], begin, count)).store(stage.affine_momentum(a, b));
+            for (int b = 0; b < 3; ++b)
+                rows.affine_momentum(a, b) =
+                    mass * load(particles.affine[static_cast<std::size_t>(3 * a + b)], begin, count);
     }
 }
 
@@ -90,9 +87,8 @@ template <Transfer T, BoxGive Give, class Cut>
             cut(i);
             continue;
         }
-        const GiftLines gift = stage.of(i);
         scatter_walks<T == Transfer::apic, Give>[static_cast<std::size_t>(weights.code(i))](
-            weights, i, gift, tile.node + weights.node(i));
+            weights, i, stage.line[i], tile.node + weights.node(i));
     }
 }
 } // namespace transfer

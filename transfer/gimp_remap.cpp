@@ -51,9 +51,10 @@ void remap_leaf(const PassOptions& options, std::size_t leaf, particles::Particl
         BoxWeights weights;
         box_weights<T == Transfer::apic>(frame, particles, p, count, weights);
         update_velocity<T>(options, weights, p, count, source, particles);
-        BoxStage<T> stage(BoxGive::momentum);
-        stage_momentum<T>(particles, p, count, stage);
-        stage.turn();
+        BoxRows<T> rows(BoxGive::momentum);
+        stage_momentum<T>(particles, p, count, load(particles.mass, p, count),
+                          load_all<core::Vec<Lanes>>(particles.velocity, p, count), rows);
+        const BoxStage<T> stage(rows);
         add_boxes<T, BoxGive::momentum>(map, weights, count, stage, tile,
                                         [&](int i) { cut.gift[given++] = stage.gift(i); });
     }

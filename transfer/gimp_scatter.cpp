@@ -10,23 +10,28 @@ namespace transfer
 {
 namespace
 {
-/// Mass, momentum and V sigma of a chunk, with the mean pressure of its home cell for those that take part in it.
-template <Transfer T>
-void stage_boxes(const LawTable& laws, Real mean_pressure, const particles::Particles& particles, std::size_t begin,
-                 int count, BoxStage<T>& stage)
+/// What the boxes of one leaf are added to.
+struct BoxTarget
 {
-    stage_momentum<T>(particles, begin, count, stage);
-    load(particles.mass, begin, count).store(stage.mass());
-    Given given = read_given<Formulation::updated>(particles, begin, count);
-    if (laws.any_decohesion && !particles.cracks.empty())
-        detail::reduce_to_solid(particles, begin, count, given.volume);
-    const LaneMask averaged = pressure_lanes(laws, particles, begin, count) &
-                              present<Formulation::updated>(Visitors::residents, particles, begin, count);
+    const BoxCutter& cutter;
+    const ReachMap& map;
+    const BoxFrame& frame;
+    ReachTile<grid::NodeSum>& tile;
+    CutBoxes& cut;
+};
+
+/// Mass, momentum and V sigma of a chunk, with the mean pressure of its home cell on `averaged` lanes.
+template <Transfer T>
+[[gnu::always_inline]] inline BoxRows<T> gifts_of(const Given& given, LaneMask averaged, Real mean_pressure,
+                                                  const particles::Particles& particles, std::size_t begin, int count)
+{
+    BoxRows<T> rows(BoxGive::all);
+    stage_momentum<T>(particles, begin, count, given.mass, given.velocity, rows);
+    rows.mass() = given.mass;
     const core::Sym<Lanes> flux = detail::volume_stress(given.volume, given.stress, averaged, mean_pressure);
     for (int b = 0; b < 3; ++b)
-        for (int a = 0; a < 3; ++a)
-            (-flux(a, b)).store(stage.flux(static_cast<std::size_t>(a), static_cast<std::size_t>(b)));
-    stage.turn();
+        for (int a = 0; a < 3; ++a) rows.flux(a, b) = -flux(a, b);
+    return rows;
 }
 
 /// Cut the box of particle p and keep it with what it gives.
@@ -39,6 +44,53 @@ void stage_boxes(const LawTable& laws, Real mean_pressure, const particles::Part
     cut.part_start.push_back(static_cast<std::uint32_t>(cut.part.size()));
 }
 
+/// Add a chunk to the sums in reach.
+template <Transfer T>
+[[gnu::always_inline]] inline void add_chunk(const BoxTarget& target, const Given& given, LaneMask averaged,
+                                             Real mean_pressure, const particles::Particles& particles,
+                                             std::size_t begin, int count)
+{
+    BoxWeights weights;
+    box_weights<T == Transfer::apic>(target.frame, particles, begin, count, weights);
+    const BoxStage<T> stage(gifts_of<T>(given, averaged, mean_pressure, particles, begin, count));
+    add_boxes<T, BoxGive::all>(target.map, weights, count, stage, target.tile, [&](int i) {
+        keep_cut(target.cutter, particles, begin + static_cast<std::size_t>(i), stage.gift(i), target.cut);
+    });
+}
+
+/// Eight particles that are at home, of one law and intact: each column is read once.
+template <Transfer T>
+void add_plain(const BoxTarget& target, const LawTable& laws, const particles::Particles& particles, std::size_t begin)
+{
+    constexpr std::size_t chunks = plain_size / Lanes::lanes;
+    constexpr int width = Lanes::lanes;
+    Given given[chunks];
+    CellPressure pressure;
+    const LaneMask averaged = law_lanes<true>(laws, particles, begin, width).averaged;
+    for (std::size_t c = 0; c < chunks; ++c) {
+        given[c] = read_given<Formulation::updated>(particles, begin + c * width, width);
+        add_pressure(given[c], averaged, pressure);
+    }
+    for (std::size_t c = 0; c < chunks; ++c)
+        add_chunk<T>(target, given[c], averaged, pressure.mean(), particles, begin + c * width, width);
+}
+
+template <Transfer T>
+void add_any(const BoxTarget& target, const LawTable& laws, const particles::Particles& particles, std::size_t begin,
+             std::size_t end)
+{
+    const CellPressure pressure = pressure_of(Visitors::residents, laws, particles, begin, end);
+    for (std::size_t p = begin; p < end; p += Lanes::lanes) {
+        const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, end - p));
+        Given given = read_given<Formulation::updated>(particles, p, count);
+        if (laws.any_decohesion && !particles.cracks.empty())
+            detail::reduce_to_solid(particles, p, count, given.volume);
+        const LaneMask averaged = pressure_lanes(laws, particles, p, count) &
+                                  present<Formulation::updated>(Visitors::residents, particles, p, count);
+        add_chunk<T>(target, given, averaged, pressure.mean(), particles, p, count);
+    }
+}
+
 void clear(CutBoxes& cut)
 {
     cut.particle.clear();
@@ -49,29 +101,24 @@ void clear(CutBoxes& cut)
 }
 
 template <Transfer T>
-void scatter_leaf_with(const BoxCutter& cutter, const LawTable& laws, const particles::Particles& particles,
-                       std::size_t leaf, const ReachMap& map, grid::Levels& levels, Boxes& boxes)
+void scatter_leaf_with(const PassOptions& options, const LawTable& laws, const grid::Refinement& refinement,
+                       const particles::Particles& particles, std::size_t leaf, const ReachMap& map,
+                       grid::Levels& levels, Boxes& boxes)
 {
-    CutBoxes& cut = boxes.cut[leaf];
-    clear(cut);
+    const BoxCutter cutter{options, levels, refinement};
+    clear(boxes.cut[leaf]);
     if constexpr (T == Transfer::apic) clear_affine(leaf, levels);
     ReachTile<grid::NodeSum> tile;
     clear(map, tile);
-    const BoxFrame frame = box_frame(cutter.options, levels, leaf);
+    const BoxFrame frame = box_frame(options, levels, leaf);
+    const BoxTarget target{cutter, map, frame, tile, boxes.cut[leaf]};
     const std::uint32_t* start = levels.cell_start.data() + leaf * grid::leaf_cells;
     for (int c = 0; c < grid::leaf_cells; ++c) {
         if (start[c] == start[c + 1]) continue;
-        const CellPressure pressure = pressure_of(Visitors::residents, laws, particles, start[c], start[c + 1]);
-        for (std::size_t p = start[c]; p < start[c + 1]; p += Lanes::lanes) {
-            const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, start[c + 1] - p));
-            BoxStage<T> stage(BoxGive::all);
-            BoxWeights weights;
-            box_weights<T == Transfer::apic>(frame, particles, p, count, weights);
-            stage_boxes<T>(laws, pressure.mean(), particles, p, count, stage);
-            add_boxes<T, BoxGive::all>(map, weights, count, stage, tile, [&](int i) {
-                keep_cut(cutter, particles, p + static_cast<std::size_t>(i), stage.gift(i), cut);
-            });
-        }
+        if (is_plain(particles, start[c], start[c + 1]))
+            add_plain<T>(target, laws, particles, start[c]);
+        else
+            add_any<T>(target, laws, particles, start[c], start[c + 1]);
     }
     write_sums(BoxGive::all, leaf, map, tile, levels, boxes);
 }
@@ -89,10 +136,9 @@ void scatter_leaf_boxes(const PassOptions& options, const LawTable& laws, const 
                         const particles::Particles& particles, std::size_t leaf, const ReachMap& map,
                         grid::Levels& levels, Boxes& boxes)
 {
-    const BoxCutter cutter{options, levels, refinement};
     options.transfer == Transfer::apic
-        ? scatter_leaf_with<Transfer::apic>(cutter, laws, particles, leaf, map, levels, boxes)
-        : scatter_leaf_with<Transfer::flip>(cutter, laws, particles, leaf, map, levels, boxes);
+        ? scatter_leaf_with<Transfer::apic>(options, laws, refinement, particles, leaf, map, levels, boxes)
+        : scatter_leaf_with<Transfer::flip>(options, laws, refinement, particles, leaf, map, levels, boxes);
 }
 
 void sort_arrivals(Strays& strays)

@@ -102,10 +102,8 @@ struct Widths
 
 [[gnu::always_inline]] inline Widths widths_of(const BoxFrame& frame, const std::uint8_t* size, int count)
 {
-    bool same = true;
-    for (int i = 1; i < count; ++i) same = same && size[i] == size[0];
     Widths widths{Lanes(frame.half[size[0]]), Lanes(frame.per_width[size[0]])};
-    if (!same) mix_widths(frame, size, count, widths);
+    if (!all_equal(size, count)) mix_widths(frame, size, count, widths);
     return widths;
 }
 } // namespace detail
