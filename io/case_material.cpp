@@ -102,7 +102,10 @@ material::Decohesion read_decohesion(Draft& draft, SectionReader& section)
     law.rotating_until = section.real("rotating_until");
     if (law.weak_plane && law.rotating_until > 0)
         section.error("rotating_until", "a weak_plane does not rotate", "leave out one of the two keys");
+    law.renewed_plane = section.boolean("renewed_plane");
     law.second_crack = section.boolean("second_crack");
+    if (law.weak_plane && law.renewed_plane)
+        section.error("renewed_plane", "a weak_plane stays where it is", "leave out one of the two keys");
     if (law.weak_plane && law.second_crack)
         section.error("second_crack", "a weak_plane is the only plane that can break", "leave out one of the two keys");
     law.friction = section.real("friction");

@@ -47,7 +47,7 @@ struct Loading
     double total() const { return normal + shear; }
 };
 
-Loading loading(const core::Crack& crack, const PlaneTraction& traction)
+Loading shares_of_loading(const core::Crack& crack, const PlaneTraction& traction)
 {
     const double normal = std::max(traction.normal, 0.0) / crack.normal_strength;
     const double shear = traction.shear / crack.tangential_strength;
@@ -73,6 +73,11 @@ PlaneTraction plane_traction(const core::Sym<double>& stress, const core::Vec<do
     const double along = core::dot(traction, normal);
     const core::Vec<double> tangential = traction - along * normal;
     return {along, std::sqrt(core::dot(tangential, tangential))};
+}
+
+double loading(const core::Crack& crack, const PlaneTraction& traction)
+{
+    return std::sqrt(shares_of_loading(crack, traction).total());
 }
 
 std::optional<Mode> failing_mode(const Decohesion& law, const PlaneTraction& traction)
@@ -113,7 +118,7 @@ std::optional<core::Crack> onset(const Decohesion& law, const Elastic& elastic, 
     const PlaneTraction starting = plane_traction(test_stress, normal);
     const PlaneTraction own = plane_traction(stress, normal);
     crack.drop_traction = {std::max(own.normal, 0.0), own.shear};
-    crack.surface_energy = nominal_surface_energy(law, *mode, crack, loading(crack, starting));
+    crack.surface_energy = nominal_surface_energy(law, *mode, crack, shares_of_loading(crack, starting));
     const double stable_length = critical_length(elastic, law.q, crack, starting);
     crack.snap_back_ratio = crack.effective_length / stable_length;
     // S2: L_crit grows in proportion to U_0, so this leaves B_s = 1 / kappa (D.7).
@@ -124,7 +129,7 @@ std::optional<core::Crack> onset(const Decohesion& law, const Elastic& elastic, 
 
 double critical_length(const Elastic& elastic, double q, const core::Crack& crack, const PlaneTraction& traction)
 {
-    const Loading load = loading(crack, traction);
+    const Loading load = shares_of_loading(crack, traction);
     const double normal_strength = crack.normal_strength, shear_strength = crack.tangential_strength;
     const double stiffness = elastic.wave_modulus() * load.normal / (normal_strength * normal_strength) +
                              elastic.shear_modulus() * load.shear / (shear_strength * shear_strength);

@@ -27,6 +27,10 @@ struct PlaneTraction
 
 PlaneTraction plane_traction(const core::Sym<double>& stress, const core::Vec<double>& normal);
 
+/// Loading phi [1] of a traction on the crack's plane or another: sqrt((<tau_n>/tau_nf)^2 + (|tau_t|/tau_tf)^2), which
+/// the crack softens at when it is 1 - lambda^q.
+double loading(const core::Crack& crack, const PlaneTraction& traction);
+
 /// Mode that a stress starts, by the three criteria of the paper; none while both strengths hold.
 std::optional<Mode> failing_mode(const Decohesion& law, const Principal& stress);
 

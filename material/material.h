@@ -74,9 +74,10 @@ struct Decohesion
     /// 1, unit normal of the only plane that can break (a weld, a bond, a side groove), in space at onset; empty: the
     /// stress decides.
     std::optional<std::array<Real, 3>> weak_plane;
-    Real rotating_until = 0;   // 1, damage until which the plane of an opening crack follows the strain; 0: fixed
-    bool second_crack = false; // stress along an open crack that reaches a strength lets go
-    Real friction = 0;         // 1, Coulomb coefficient of a closed crack
+    Real rotating_until = 0;    // 1, damage until which the plane of an opening crack follows the strain; 0: fixed
+    bool renewed_plane = false; // a softening crack goes on where the stress reaches its strength again
+    bool second_crack = false;  // stress along an open crack that reaches a strength lets go
+    Real friction = 0;          // 1, Coulomb coefficient of a closed crack
 };
 
 struct Material

@@ -3,6 +3,7 @@
 #include "core/contract.h"
 #include "material/crack_faces.h"
 #include "material/crack_plane.h"
+#include "material/renewed_plane.h"
 #include "material/rotating_crack.h"
 
 #include <algorithm>
@@ -123,6 +124,7 @@ SeparationLaw separation_law(const Material& material)
         law.drop_speed = material.elastic.wave_speed() / decohesion.drop_transits;
     law.rotating_until = decohesion.rotating_until;
     law.friction = decohesion.friction;
+    law.renewed_plane = decohesion.renewed_plane;
     law.second_crack = decohesion.second_crack;
     law.second_tension = decohesion.s_max;
     law.second_shear = decohesion.tau_max;
@@ -150,12 +152,14 @@ DecohesionStep separate(const SeparationLaw& law, const core::Crack& crack, cons
         const double turned = crack.damage < law.rotating_until && crack.mode == static_cast<int>(Mode::opening)
                                   ? rotate_to_strain(law, faces)
                                   : 0;
-        after.effective_length = faces.effective_length;
+        after.effective_length = faces.effective_length; // the softening law reads it
         const Traction<double> trial = traction_on(faces.stress, faces.normal);
         const bool brittle = law.drop_speed > 0 && crack.snap_back_ratio >= 1;
         const Traction<double> released = brittle ? dropped(law, after, trial, step.dt) : softened(law, after, trial);
         open(law, before, trial, released, faces);
         faces.decohesion_work += turned;
+        if (law.renewed_plane && after.damage < 1) renew_plane(after, step, faces);
+        after.effective_length = faces.effective_length;
         if (after.damage >= 1) after.separation_time = step.time;
     }
     after.normal = faces.normal.v;

@@ -31,6 +31,7 @@ struct SeparationLaw
     double q = 1;                                    // 1, exponent of softening
     double drop_speed = 0;                           // mm/ms, c_d / k: brittle ramp; 0: the softening law always
     double rotating_until = 0;                       // 1, damage up to which an opening crack follows the strain
+    bool renewed_plane = false;                      // a softening crack goes on where the stress reaches its strength
     double friction = 0;                             // 1, Coulomb coefficient of a closed crack
     bool second_crack = false;                       // stress along an open crack lets go at these strengths
     double second_tension = 0;                       // MPa
@@ -61,7 +62,8 @@ struct DecohesionStep
 };
 
 /// Advance a crack of any damage by one step. The plane of an opening crack is turned first while lambda <
-/// rotating_until (material/rotating_crack.h).
+/// rotating_until (material/rotating_crack.h), and that of a crack that still softens is chosen again afterwards where
+/// the law has renewed_plane (material/renewed_plane.h).
 ///
 /// lambda < 1: the equations above, or, where the law asks for the brittle drop and the crack is in snap-back,
 /// tractions bounded by (1 - lambda) times those at onset with d_lambda = dt c_d / (k L_e). lambda = 1: the crack opens

@@ -68,9 +68,9 @@ void advance_lattice(const grid::LevelSteps& steps, const PassOptions& options, 
 /// What the particles of one leaf say together.
 struct LatticeSurvey
 {
-    Real elastic = 0;      // mJ
-    Real squeeze = 0;      // 1, largest cell_squeeze of particles that transmit force; not finite if some F is not
-    std::size_t worst = 0; // particle with the largest squeeze
+    Real elastic = 0; // mJ
+    Real squeeze = 0; // 1, of the cell that is squeezed most (transfer/lattice_survey.cpp); not finite if some F is not
+    std::size_t worst = 0; // its particle that is squeezed most
 };
 
 /// Survey of every leaf; reads motion (halos filled).

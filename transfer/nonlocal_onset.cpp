@@ -33,6 +33,7 @@ struct Candidate
     std::uint8_t material = 0;
     core::Sym<Real> tested{}; // MPa, mean of its ball or of the cell
     Real excess = 0;          // 1, largest ratio of stress to strength; <= 1: the criterion is not met
+    bool overloaded = false;  // its own mean is beyond `overload`: starts whatever stands beside it
 };
 
 core::Sym<Real> stress_of(const View& view, const particles::Particles& particles, std::uint32_t p)
@@ -182,8 +183,18 @@ Vec3 at_rest(const core::Mat<Real>& deformation, const std::array<Real, 3>& norm
 struct Neighbour
 {
     Vec3 offset; // mm, to the candidate's cell
-    const core::Crack* crack;
+    const core::Crack* crack = nullptr;
+    bool softens = false; // one of the cell's takes up what strains the metal here: neither through nor unloaded
 };
+
+/// The crack of particle p is loaded to at least `idle_loading` of what is left of its strength.
+bool softens(const View& view, const particles::Particles& particles, std::uint32_t p, const core::Crack& crack)
+{
+    if (crack.damage >= 1) return false;
+    const material::Decohesion& law = *view.laws.materials[particles.material[p]].decohesion;
+    const material::PlaneTraction traction = material::plane_traction(stress_of(view, particles, p), {crack.normal});
+    return material::loading(crack, traction) >= idle_loading * (1 - std::pow(crack.damage, law.q));
+}
 
 std::vector<Neighbour> cracks_near(const View& view, const particles::Particles& particles, std::size_t slot,
                                    Real reach)
@@ -191,13 +202,16 @@ std::vector<Neighbour> cracks_near(const View& view, const particles::Particles&
     const OccupiedCell own = occupied_cell(view.levels, slot);
     const Vec3 centre = centre_of(view.levels, own);
     std::vector<Neighbour> neighbours;
-    for (const OccupiedCell& cell : cells_near(view.levels, centre, reach, 0))
+    for (const OccupiedCell& cell : cells_near(view.levels, centre, reach, 0)) {
+        Neighbour neighbour{centre - centre_of(view.levels, cell)};
         for (std::uint32_t p = view.levels.cell_start[cell.slot]; p < view.levels.cell_start[cell.slot + 1]; ++p) {
             if (particles.crack[p] < 0) continue;
-            neighbours.push_back({centre - centre_of(view.levels, cell),
-                                  &particles.cracks[static_cast<std::size_t>(particles.crack[p])]});
-            break;
+            const core::Crack& crack = particles.cracks[static_cast<std::size_t>(particles.crack[p])];
+            if (neighbour.crack == nullptr) neighbour.crack = &crack;
+            neighbour.softens = neighbour.softens || softens(view, particles, p, crack);
         }
+        if (neighbour.crack != nullptr) neighbours.push_back(neighbour);
+    }
     return neighbours;
 }
 
@@ -237,7 +251,8 @@ bool continues_a_crack(const View& view, const particles::Particles& particles, 
     return false;
 }
 
-/// Stress to test: the mean of the ball; where a crack arrives the cell's own, if that exceeds the criterion further.
+/// Stress to test: the mean of the ball; where a crack arrives or the cell is overloaded its own, if that exceeds the
+/// criterion further.
 void choose_tested(const View& view, const particles::Particles& particles, Candidate& candidate)
 {
     const material::Decohesion& law = *nonlocal_law(view.laws, candidate.material);
@@ -246,8 +261,9 @@ void choose_tested(const View& view, const particles::Particles& particles, Cand
     const core::Sym<Real> own =
         mean_of(view, particles, ball_of_cell(view.levels, particles, candidate.slot, candidate.material));
     const Real own_excess = excess_of(law, own);
-    if (own_excess <= std::max(Real(1), candidate.excess) || !continues_a_crack(view, particles, candidate.slot))
-        return;
+    candidate.overloaded = own_excess > overload;
+    if (own_excess <= std::max(Real(1), candidate.excess)) return;
+    if (!candidate.overloaded && !continues_a_crack(view, particles, candidate.slot)) return;
     candidate.tested = own;
     candidate.excess = own_excess;
 }
@@ -278,11 +294,11 @@ std::vector<Onset> cracks_of(const View& view, const particles::Particles& parti
         crack->particle_id = particles.id[p];
         onset.push_back({p, *crack});
     }
-    if (onset.empty()) return onset;
+    if (onset.empty() || candidate.overloaded) return onset;
     const core::Crack& fresh = onset.front().crack; // all have one plane: the tested stress and the bias are the cell's
     const Vec3 normal = at_rest(motion.deformation, fresh.normal);
     for (const Neighbour& other : neighbours)
-        if (other.crack->damage < 1 &&
+        if (other.softens &&
             excluded(other.offset, at_rest(motion.deformation, other.crack->normal), normal,
                      std::max(fresh.effective_length, other.crack->effective_length), law.crack_exclusion))
             return {};

@@ -27,7 +27,7 @@ TEST_F(CaseError, misspelt_key)
               "      | ^~~~~~  did you mean 'tau_max'?\n"
               "   keys here: G_I, G_II, band_factor, c_m, c_m_mixed, c_m_opening, c_m_shear, crack_exclusion, "
               "drop_transits, energy_floor_factor, friction, mode, nonlocal_radius, onset_strength, preset, q, "
-              "rotating_until, s_max, second_crack, smoothed_onset, snap_back, tau_max, u0, weak_plane     "
+              "renewed_plane, rotating_until, s_max, second_crack, smoothed_onset, snap_back, tau_max, u0, weak_plane     "
               "(cleave keys material.decohesion)\n"
               "2 errors");
 }

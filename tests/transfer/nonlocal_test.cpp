@@ -187,45 +187,86 @@ TEST(Nonlocal, a_ball_smaller_than_the_distance_of_particles_is_the_cell)
     for (const Real weight : ball.weight) EXPECT_NEAR(weight, scene.particles.rest_volume[0], 1e-15);
 }
 
-// One cell carries one and a half times the shear strength, all around it a fifth: the mean of the ball never starts
-// it. A crack that arrives does, one that passes beside it does not.
+namespace
+{
+/// A cell with a crack across y.
+struct CrackedCell
+{
+    Index3 cell;
+    Real damage = 1; // 1
+    Real stress = 0; // MPa, shear on its plane
+};
+
+/// Particles that start where one cell carries shear beyond the strength of 1 MPa, all around it a fifth.
+/// @param load  MPa
+std::size_t started(Real radius, const std::optional<CrackedCell>& cracked, Real load = 1.2)
+{
+    material::Material metal = support::soft_elastic();
+    metal.decohesion.emplace();
+    metal.decohesion->s_max = std::numeric_limits<Real>::infinity();
+    metal.decohesion->tau_max = 1;
+    metal.decohesion->energy_2 = 1;
+    metal.decohesion->nonlocal_radius = radius;
+    metal.decohesion->crack_exclusion = 1.1;
+    Scene scene = support::scene_of(support::topology_of("block", 1, 3, [](const grid::CellKey&) { return false; }), {},
+                                    {metal}, support::Layout::regular);
+    const auto cell_of = [&](std::size_t p) {
+        return Index3(((support::vector_of(scene.particles.rest_position, p) - scene.levels.origin) / 0.5)
+                          .array()
+                          .floor()
+                          .cast<int>());
+    };
+    put_stress([](std::size_t n, const Vec3&) { return n == 3 ? 0.2 : 0.0; }, scene);
+    for (std::size_t p = 0; p < scene.particles.size(); ++p) {
+        if (cell_of(p) == Index3(0, 0, 0)) scene.particles.stress[3][p] = load;
+        if (!cracked || cell_of(p) != cracked->cell) continue;
+        core::Crack crack;
+        crack.normal = {0, 1, 0};
+        crack.damage = cracked->damage;
+        crack.normal_strength = crack.tangential_strength = 1;
+        crack.effective_length = 0.5;
+        scene.particles.stress[3][p] = cracked->stress;
+        scene.particles.crack[p] = static_cast<std::int32_t>(scene.particles.cracks.size());
+        scene.particles.cracks.push_back(crack);
+    }
+    transfer::Lattice none;
+    transfer::NonlocalTable table;
+    return transfer::start_nonlocal_cracks(scene.options, scene.laws, scene.levels, none, scene.particles, table);
+}
+} // namespace
+
+// The mean of the ball never starts the loaded cell. A crack that arrives does, one that passes beside it does not.
 TEST(Nonlocal, where_a_crack_arrives_the_cell_itself_decides)
 {
     const auto started = [](const std::optional<Index3>& cracked) {
-        material::Material metal = support::soft_elastic();
-        metal.decohesion.emplace();
-        metal.decohesion->s_max = std::numeric_limits<Real>::infinity();
-        metal.decohesion->tau_max = 1;
-        metal.decohesion->energy_2 = 1;
-        metal.decohesion->nonlocal_radius = 1.1;
-        Scene scene = support::scene_of(support::topology_of("block", 1, 3, [](const grid::CellKey&) { return false; }),
-                                        {}, {metal}, support::Layout::regular);
-        const auto cell_of = [&](std::size_t p) {
-            return Index3(((support::vector_of(scene.particles.rest_position, p) - scene.levels.origin) / 0.5)
-                              .array()
-                              .floor()
-                              .cast<int>());
-        };
-        put_stress([](std::size_t n, const Vec3&) { return n == 3 ? 0.2 : 0.0; }, scene);
-        for (std::size_t p = 0; p < scene.particles.size(); ++p) {
-            if (cell_of(p) == Index3(0, 0, 0)) scene.particles.stress[3][p] = 1.5;
-            if (!cracked || cell_of(p) != *cracked) continue;
-            core::Crack crack;
-            crack.normal = {0, 1, 0};
-            crack.damage = 1;
-            crack.effective_length = 0.5;
-            scene.particles.crack[p] = static_cast<std::int32_t>(scene.particles.cracks.size());
-            scene.particles.cracks.push_back(crack);
-        }
-        transfer::Lattice none;
-        transfer::NonlocalTable table;
-        return transfer::start_nonlocal_cracks(scene.options, scene.laws, scene.levels, none, scene.particles, table);
+        return ::started(1.1, cracked ? std::optional(CrackedCell{*cracked}) : std::nullopt);
     };
     EXPECT_EQ(started({}), 0U);
     EXPECT_EQ(started(Index3(-1, 0, 0)), 8U);  // straight on
     EXPECT_EQ(started(Index3(-1, -1, 0)), 8U); // a kink
     EXPECT_EQ(started(Index3(0, -1, 0)), 0U);  // at its flank
     EXPECT_EQ(started(Index3(-2, 0, 0)), 0U);  // not there yet
+}
+
+// A crack beside the loaded cell forbids another one while it carries what is left of its strength.
+TEST(Nonlocal, only_a_crack_that_softens_forbids_others)
+{
+    const Index3 beside(0, -1, 0);
+    constexpr Real cell_alone = 0.01; // mm, radius: the cell itself decides
+    EXPECT_EQ(started(cell_alone, {}), 8U);
+    EXPECT_EQ(started(cell_alone, CrackedCell{beside, 0.2, 0.8}), 0U);
+    EXPECT_EQ(started(cell_alone, CrackedCell{beside, 0.2, 0.3}), 8U); // unloaded
+    EXPECT_EQ(started(cell_alone, CrackedCell{beside, 1, 0}), 8U);     // through
+}
+
+// A cell beyond one and a quarter of the strength starts alone, and beside a crack that softens.
+TEST(Nonlocal, an_overloaded_cell_is_not_held_back)
+{
+    const CrackedCell beside{Index3(0, -1, 0), 0.2, 0.8};
+    EXPECT_EQ(started(1.1, {}, 1.2), 0U);
+    EXPECT_EQ(started(1.1, {}, 1.3), 8U);
+    EXPECT_EQ(started(1.1, beside, 1.2), 0U);
+    EXPECT_EQ(started(1.1, beside, 1.3), 8U);
 }
 
 // One layer of cells: planes beside a crack are forbidden, those that continue or cross it are not. Cells of 1 mm.
