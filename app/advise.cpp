@@ -207,6 +207,14 @@ std::vector<const ChartRow*> like_rows(const AdviceRequest& request, const Scene
     return chosen;
 }
 
+bool reached_by_any(const std::vector<Candidate>& candidates, const std::string& scene, Real error)
+{
+    return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
+        const auto group = candidate.scenes.find(scene);
+        return group != candidate.scenes.end() && evidence_of(group->second, error).has_value();
+    });
+}
+
 std::string sureness(const Advice& advice)
 {
     std::size_t measured = 0, like = 0;
@@ -265,8 +273,12 @@ std::optional<Advice> advise(const AdviceRequest& request, const std::vector<Cha
     std::vector<std::string> scenes;
     for (const ChartRow* row : like)
         if (std::find(scenes.begin(), scenes.end(), row->scene) == scenes.end()) scenes.push_back(row->scene);
+    const std::vector<Candidate> all = candidates(like);
+    std::vector<std::string> silent;
+    for (const std::string& scene : scenes)
+        if (!reached_by_any(all, scene, request.error)) silent.push_back(scene);
     std::optional<Advice> best;
-    for (const Candidate& candidate : candidates(like)) {
+    for (const Candidate& candidate : all) {
         if (candidate.method->levels > 1 && problem.grid.levels < 2) continue; // the case has no zones
         Advice advice;
         advice.method = *candidate.method;
@@ -274,6 +286,7 @@ std::optional<Advice> advise(const AdviceRequest& request, const std::vector<Cha
         advice.resolution = std::numeric_limits<Real>::infinity();
         bool fails = false;
         for (const auto& [scene, group] : candidate.scenes) {
+            if (std::find(silent.begin(), silent.end(), scene) != silent.end()) continue;
             std::optional<Evidence> one = evidence_of(group, request.error);
             fails = fails || !one;
             if (!one) break;
@@ -283,7 +296,8 @@ std::optional<Advice> advise(const AdviceRequest& request, const std::vector<Cha
         }
         // A method must have proved itself on most of the scenes, or its few would count for more than the many of
         // others.
-        if (fails || 2 * advice.evidence.size() < scenes.size()) continue;
+        if (fails || advice.evidence.empty() || 2 * advice.evidence.size() < scenes.size() - silent.size()) continue;
+        advice.silent = silent;
         const std::optional<Fit> fit =
             fitting_grid(request, problem, *candidate.method, advice.resolution * features.length);
         if (!fit) continue;
@@ -313,6 +327,8 @@ std::string advice_text(const AdviceRequest& request, const Advice& advice)
         text += fmt::format("#   {:<24} needs {:.3g} cells, {}{}\n", one.scene, 1 / one.resolution,
                             one.measured ? "measured" : "extrapolated",
                             one.order ? fmt::format(", error ~ h^{:.1f}", *one.order) : "");
+    for (const std::string& scene : advice.silent)
+        text += fmt::format("#   {:<24} left out: no charted method comes that near its reference\n", scene);
     text += fmt::format("# largest error of these scenes at this resolution: {:.2g} %\n", 100 * advice.charted_error);
     text += fmt::format("# expected cost: {:.3g} s of processor time, the least of the charted methods that do\n",
                         advice.cpu_s);

@@ -5,6 +5,9 @@
 /// every finer run met e; where none did, x is extrapolated from the finest run with the fitted order. The method is
 /// taken at the smallest x its like scenes ask for, so that it would have met e on each of them; its cost is the
 /// forecast of the case at that x times the processor time per particle-step the method took in the chart.
+///
+/// A like scene that no method at all comes to e with, neither measured nor extrapolated, is left out and named: its
+/// reference is further off than e (an experiment, say), and tells no method from another.
 #pragma once
 
 #include "app/scene_features.h"
@@ -36,6 +39,7 @@ struct Advice
     Real cpu_s = 0;         // s, expected
     Real charted_error = 0; // largest error of the like scenes at this x
     std::vector<Evidence> evidence;
+    std::vector<std::string> silent; // like scenes that no method comes that near with: they say nothing
     bool own_scene = false; // the case itself is in the chart
 };
 

@@ -226,6 +226,23 @@ TEST(Advise, a_method_that_failed_on_a_like_scene_is_not_advised)
     EXPECT_EQ(advice->method.transfer, "nodal");
 }
 
+/// A reference that is off by more than the wanted error tells no method from another.
+TEST(Advise, a_like_scene_that_nothing_comes_near_is_left_out_and_named)
+{
+    const support::Folder folder;
+    std::vector<ChartRow> rows = measured();
+    for (ChartRow& r : rows)
+        if (r.scene == "two") r.error = 0.1; // converges to something else
+    const app::AdviceRequest request{written_case(folder), {}, 0.05, {}, {}};
+    const std::optional<app::Advice> advice = app::advise(request, rows);
+    ASSERT_TRUE(advice);
+    EXPECT_EQ(advice->evidence.size(), 2U);
+    EXPECT_EQ(advice->silent, std::vector<std::string>{"two"});
+    const std::string text = app::advice_text(request, *advice);
+    for (const char* part : {"two                      left out", "sure? fair"})
+        EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
+}
+
 TEST(Advise, out_of_reach_is_no_advice)
 {
     const support::Folder folder;

@@ -18,27 +18,30 @@ using CaseError = test::CaseFile;
 
 TEST_F(CaseError, misspelt_key)
 {
-    EXPECT_EQ(complaint(with(valid_case, "tau_max =", "tau_mx =")),
-              "case.toml:10:1: error: missing key 'tau_max' in [material.steel.decohesion]\n"
-              "   10 | [material.steel.decohesion]\n"
-              "      | ^~~~~~~~~~~~~~~~~~~~~~~~~~~  or preset = \"paper\", or mode = \"opening\" or \"shear\"\n"
-              "case.toml:12:1: error: unknown key 'tau_mx' in [material.steel.decohesion]\n"
-              "   12 | tau_mx = \"820 MPa\"\n"
-              "      | ^~~~~~  did you mean 'tau_max'?\n"
-              "   keys here: G_I, G_II, band_factor, c_m, c_m_mixed, c_m_opening, c_m_shear, crack_exclusion, "
-              "drop_transits, energy_floor_factor, friction, mode, nonlocal_radius, onset_strength, preset, q, "
-              "renewed_plane, rotating_until, s_max, second_crack, smoothed_onset, snap_back, tau_max, u0, weak_plane     "
-              "(cleave keys material.decohesion)\n"
-              "2 errors");
+    EXPECT_EQ(
+        complaint(with(valid_case, "tau_max =", "tau_mx =")),
+        "case.toml:10:1: error: missing key 'tau_max' in [material.steel.decohesion]\n"
+        "   10 | [material.steel.decohesion]\n"
+        "      | ^~~~~~~~~~~~~~~~~~~~~~~~~~~  or preset = \"paper\", or mode = \"opening\" or \"shear\"\n"
+        "case.toml:12:1: error: unknown key 'tau_mx' in [material.steel.decohesion]\n"
+        "   12 | tau_mx = \"820 MPa\"\n"
+        "      | ^~~~~~  did you mean 'tau_max'?\n"
+        "   keys here: G_I, G_II, band_factor, c_m, c_m_mixed, c_m_opening, c_m_shear, crack_exclusion, "
+        "drop_transits, energy_floor_factor, friction, mode, nonlocal_radius, onset_strength, preset, q, "
+        "renewed_plane, rotating_until, s_max, second_crack, smoothed_onset, snap_back, tau_max, u0, weak_plane     "
+        "(cleave keys material.decohesion)\n"
+        "2 errors");
 }
 
 TEST_F(CaseError, weak_plane_needs_a_normal_and_does_not_rotate)
 {
     const std::string text = complaint(
-        with(valid_case, "tau_max =", "weak_plane = [0, 0, 0]\nrotating_until = 0.5\nsecond_crack = true\ntau_max ="));
+        with(valid_case, "tau_max =",
+             "weak_plane = [0, 0, 0]\nrotating_until = 0.5\nrenewed_plane = true\nsecond_crack = true\ntau_max ="));
     EXPECT_TRUE(contains(text, "case.toml:12:14: error: a plane needs a normal other than zero\n"));
     EXPECT_TRUE(contains(text, "case.toml:13:18: error: a weak_plane does not rotate\n"));
-    EXPECT_TRUE(contains(text, "case.toml:14:16: error: a weak_plane is the only plane that can break\n"));
+    EXPECT_TRUE(contains(text, "case.toml:14:17: error: a weak_plane stays where it is\n"));
+    EXPECT_TRUE(contains(text, "case.toml:15:16: error: a weak_plane is the only plane that can break\n"));
 }
 
 TEST_F(CaseError, misspelt_section)

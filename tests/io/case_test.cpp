@@ -72,6 +72,7 @@ void expect_equal_materials(const material::Material& a, const material::Materia
     EXPECT_EQ(x.crack_exclusion, y.crack_exclusion);
     EXPECT_EQ(x.weak_plane, y.weak_plane);
     EXPECT_EQ(x.rotating_until, y.rotating_until);
+    EXPECT_EQ(x.renewed_plane, y.renewed_plane);
     EXPECT_EQ(x.second_crack, y.second_crack);
     EXPECT_EQ(x.friction, y.friction);
 }
@@ -221,6 +222,7 @@ smoothed_onset = false
 nonlocal_radius = "0.25 mm"
 crack_exclusion = 0.1
 rotating_until = 0.5
+renewed_plane = true
 second_crack = true
 [material.rubber]
 density = 1e-3

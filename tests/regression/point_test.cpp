@@ -101,6 +101,21 @@ TEST(PointCommand, willam_locks_with_a_fixed_plane)
     EXPECT_NEAR(largest("1"), 2.73, 0.02);
 }
 
+/// B14: the plane is chosen again where the stress reaches the strength by a twentieth more.
+TEST(PointCommand, willam_does_not_lock_where_the_plane_is_renewed)
+{
+    const support::Folder folder;
+    const auto largest = [&](const char* rotating) {
+        const test::Outcome outcome = test::run(
+            {"point", cases + "willam.toml", "--set", "material.concrete.decohesion.renewed_plane=true", "--set",
+             std::string("material.concrete.decohesion.rotating_until=") + rotating, "-o", folder.path().string()});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+        return value_after(outcome.output, "largest ");
+    };
+    EXPECT_NEAR(largest("0"), 1.461, 0.005);
+    EXPECT_NEAR(largest("1"), 1.046, 0.002);
+}
+
 /// B14: what one plane does not see, a second crack lets go as soon as the first one is through.
 TEST(PointCommand, willam_breaks_across)
 {

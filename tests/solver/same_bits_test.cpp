@@ -23,6 +23,7 @@ solver::Problem torn_bar(const solver::Numerics& numerics, Real radius = 0)
     material::Material metal = support::breakable();
     metal.decohesion->nonlocal_radius = metal.decohesion->crack_exclusion = radius;
     metal.decohesion->rotating_until = 0.5; // opening cracks first turn, then keep their planes
+    metal.decohesion->renewed_plane = true;
     metal.decohesion->second_crack = true;
     solver::Problem problem = support::bar(metal, 0, 0);
     problem.bodies[0].shape = geometry::subtract(geometry::box({0, 0, 0}, {2, 8, 1}), {pin.region});
