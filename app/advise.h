@@ -40,7 +40,7 @@ struct Advice
     Real charted_error = 0; // largest error of the like scenes at this x
     std::vector<Evidence> evidence;
     std::vector<std::string> silent; // like scenes that no method comes that near with: they say nothing
-    bool own_scene = false; // the case itself is in the chart
+    bool own_scene = false;          // the case itself is in the chart
 };
 
 struct AdviceRequest

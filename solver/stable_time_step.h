@@ -28,7 +28,8 @@ inline int substeps(const Problem& problem)
 /// gimp: box_step_share instead.
 ///
 /// s is the largest compression of a cell of the level: total formulation max |F^{-T} e_a| over axes and particles that
-/// still transmit force (damage < 1), and |v| = 0; updated formulation s = 1 and |v| the largest particle speed.
+/// still transmit force (damage < 1), with motion on the nodes the largest mean of a cell's corners
+/// (transfer/lattice_squeeze.h), and |v| = 0; updated formulation s = 1 and |v| the largest particle speed.
 /// With sub-cycling a level is held to its own step, 2^(l_max - l) dt, and the share is subcycled_step_share.
 /// @return  ms
 /// @error   core::NumericalError if a velocity or deformation is not finite, or the step is below smallest_step_share

@@ -72,7 +72,7 @@ def draw_specimen(axes, figure, directory):
     axes.set_aspect("equal")
     axes.set_axis_off()
     axes.set_title(f"middle plane, t = {time:.3f} ms", fontsize=9)
-    axes.legend(frameon=False, fontsize=8, loc="lower right")
+    axes.legend(frameon=False, fontsize=8, loc="lower right", markerscale=6)
     figure.colorbar(shown, ax=axes, shrink=0.6, label="equivalent plastic strain")
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The study of Yang et al. 2014 and what it lacks: runs, pictures and docs/snl.md.
 
-usage: tools/snl_study.py [-o DIRECTORY] [--group GROUP] [--page-only] [--cleave PROGRAM] [NAME ...]
+usage: tools/snl_study.py [-o DIRECTORY] [--group GROUP] [--threads N] [--page-only] [--cleave PROGRAM] [NAME ...]
 
 Runs the variants of VARIANTS (or one group, or those named) into DIRECTORY/NAME (default results/snl-study), one after
 the other, skipping those that are done; then writes the tables of docs/snl.md, docs/snl.csv and the pictures in docs/img
@@ -55,7 +55,7 @@ def grip_speed(value):
 
 PAPER, FINE, OBJECTIVE, COUPON = "snl/preview.toml", "snl/challenge-lean.toml", "snl/objective/preview.toml", "tension/coupon.toml"
 VARIANTS = {
-    "mixed": Variant("preview", PAPER, "nothing: mixed mode, plain points"),
+    "mixed": Variant("preview", PAPER, "as shipped: mixed mode, plain points"),
     "opening": Variant("preview", PAPER, "mode I only", mode("opening")),
     "shear": Variant("preview", PAPER, "mode II only", mode("shear")),
     "s3000": Variant("preview", PAPER, "s_max = 3000 MPa", [f'{DECOHESION}.s_max="3000 MPa"']),
@@ -75,7 +75,7 @@ VARIANTS = {
     "updated": Variant("preview", PAPER, "updated Lagrangian, FLIP", ['numerics.formulation="updated"', 'numerics.precision="f64"']),
     "full-thickness": Variant("preview", PAPER, "full thickness, no symmetry plane",
                               ["body.0.shape.difference.from.box.lower=[0, -15.875, -1.575]", "symmetry=[]"]),
-    "objective": Variant("objective", OBJECTIVE, "nothing: energies, D lower by 0.05 mm"),
+    "objective": Variant("objective", OBJECTIVE, "as shipped: energies, D lower by 0.05 mm"),
     "objective-second": Variant("objective", OBJECTIVE, "second cracks", SECOND),
     "objective-shifted-x": Variant("objective", OBJECTIVE, "lattice moved by a quarter cell in x", ["grid.origin=[0.125, 0, 0]"]),
     "objective-shifted-y": Variant("objective", OBJECTIVE, "lattice moved by a quarter cell in y", ["grid.origin=[0, 0.125, 0]"]),
@@ -106,10 +106,12 @@ def done(directory):
     return record.exists() and json.loads(record.read_text())["status"] == "done"
 
 
-def run(program, name, directory):
+def run(program, name, directory, threads):
     variant = VARIANTS[name]
     changes = [part for override in variant.overrides for part in ("--set", override)]
     command = [program, "run", str(ROOT / "cases" / variant.case), "-o", str(directory), "--force", *changes]
+    if threads:
+        command += ["--threads", str(threads)]
     log = directory.parent / f"{directory.name}.log"
     with open(log, "w") as output:
         code = subprocess.run(command, stdout=output, stderr=subprocess.STDOUT).returncode
@@ -317,9 +319,10 @@ def write_page(results, reference):
         writer.writeheader()
         writer.writerows(rows)
     images = ROOT / "docs/img"
-    fine = "fine-" if "fine-opening" in results else ""
-    draw_curves(images / "snl-modes.png", results, [fine + name for name in ("opening", "shear", "mixed")], reference)
-    draw_patterns(images / "snl-patterns.png", results, [fine + name for name in ("opening", "shear", "mixed")])
+    modes = ("opening", "shear", "mixed")
+    fine = "fine-" if all("fine-" + name in results for name in modes) else ""
+    draw_curves(images / "snl-modes.png", results, [fine + name for name in modes], reference)
+    draw_patterns(images / "snl-patterns.png", results, [fine + name for name in modes])
     draw_curves(images / "snl-averaged.png", results, ["opening-averaged", "shear-averaged", "mixed-averaged"], reference)
     draw_curves(images / "snl-objective.png", results, ["objective-challenge", "objective", "objective-second", "objective-D"], reference)
     draw_patterns(images / "snl-patterns-objective.png", results, ["objective-challenge", "objective", "objective-second", "objective-D"])
@@ -354,6 +357,7 @@ def main():
     parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "results/snl-study")
     parser.add_argument("--group", choices=sorted({variant.group for variant in VARIANTS.values()}))
     parser.add_argument("--cleave", default=str(ROOT / "cleave"))
+    parser.add_argument("--threads", type=int, help="of each run; default: all of the machine")
     parser.add_argument("--page-only", action="store_true", help="run nothing")
     parser.add_argument("names", nargs="*")
     options = parser.parse_args()
@@ -364,7 +368,7 @@ def main():
     if not options.page_only:
         for name in options.names or [name for name, variant in VARIANTS.items() if options.group in (None, variant.group)]:
             if not done(options.output / name):
-                run(options.cleave, name, options.output / name)
+                run(options.cleave, name, options.output / name, options.threads)
     results = {name: options.output / name for name in VARIANTS if done(options.output / name)}
     if not results:
         sys.exit("no finished run")
