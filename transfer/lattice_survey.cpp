@@ -106,7 +106,6 @@ void survey_part(const Context& context, const particles::Particles& particles, 
     for (int a = 0; a < 3; ++a) displacement[a] = slopes_at_slots(corner[a]);
     SlotLaw<T> law[slots];
     const int law_step = with_energy ? find_laws(context, part, particles, law) : 0;
-    const V zero(T(0));
     V squared[slots], counts[slots];
     for (int s = 0; s < slots; ++s) {
         const core::Mat<V> f = deformation_at(displacement, s, context.per_spacing);
