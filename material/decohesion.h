@@ -14,6 +14,7 @@
 #include "material/crack_plane.h"
 #include "material/material.h"
 
+#include <cmath>
 #include <optional>
 
 namespace material
@@ -27,8 +28,14 @@ struct PlaneTraction
 
 PlaneTraction plane_traction(const core::Sym<double>& stress, const core::Vec<double>& normal);
 
+/// 1 - lambda^q [1], the part of the strength left.
+inline double strength_left(double q, double damage)
+{
+    return q == 1 ? 1 - damage : 1 - std::pow(damage, q);
+}
+
 /// Loading phi [1] of a traction on the crack's plane or another: sqrt((<tau_n>/tau_nf)^2 + (|tau_t|/tau_tf)^2), which
-/// the crack softens at when it is 1 - lambda^q.
+/// the crack softens at when it is `strength_left`.
 double loading(const core::Crack& crack, const PlaneTraction& traction);
 
 /// Mode that a stress starts, by the three criteria of the paper; none while both strengths hold.

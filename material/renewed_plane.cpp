@@ -4,6 +4,7 @@
 #include "material/crack_plane.h"
 #include "material/decohesion.h"
 #include "material/principal.h"
+#include "material/rotation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,21 +20,13 @@ double largest_loading(const core::Crack& crack, const core::Sym<double>& stress
     const double shear = std::sqrt(std::max(0.0, 0.5 * (core::contract(stress, stress) - 3 * mean * mean)));
     return loading(crack, {mean + 2 / std::sqrt(3.0) * shear, shear});
 }
-
-/// Velocity gradient times dt.
-core::Mat<double> gradient_increment(const StrainStep& step)
-{
-    const core::Sym<double>& e = step.strain;
-    const core::Vec<double>& a = step.spin;
-    return {{e[0], e[3] - a[2], e[5] + a[1], e[3] + a[2], e[1], e[4] - a[0], e[5] - a[1], e[4] + a[0], e[2]}};
-}
 } // namespace
 
 void renew_plane(const core::Crack& crack, const StrainStep& step, Faces<double>& faces)
 {
     if (largest_loading(crack, faces.stress) <= renewal_loading) return;
-    const core::Vec<double> normal =
-        crack_normal(static_cast<Mode>(crack.mode), principal(faces.stress), {gradient_increment(step), faces.normal});
+    const core::Vec<double> normal = crack_normal(static_cast<Mode>(crack.mode), principal(faces.stress),
+                                                  {gradient_increment(step.strain, step.spin), faces.normal});
     if (loading(crack, plane_traction(faces.stress, normal)) <= renewal_loading) return;
     faces.effective_length *= band_width(normal) / band_width(faces.normal);
     faces.slip = faces.slip - core::dot(faces.slip, normal) * normal;

@@ -23,6 +23,13 @@ constexpr core::Vec<T> spin_increment(const core::Mat<T>& gradient_increment)
     return {{half * (g(2, 1) - g(1, 2)), half * (g(0, 2) - g(2, 0)), half * (g(1, 0) - g(0, 1))}};
 }
 
+/// The increment L dt [1] that strain e and spin a are the symmetric and the skew part of.
+template <class T>
+constexpr core::Mat<T> gradient_increment(const core::Sym<T>& e, const core::Vec<T>& a)
+{
+    return {{e[0], e[3] - a[2], e[5] + a[1], e[3] + a[2], e[1], e[4] - a[0], e[5] - a[1], e[4] + a[0], e[2]}};
+}
+
 /// Spin [1] of the material plane with unit normal n, from spin a and strain D of the same increment:
 ///
 ///   dn = -(L^T n) without its part along n,   spin about n as the material's   =>   a - n x (D n)

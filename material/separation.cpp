@@ -3,6 +3,7 @@
 #include "core/contract.h"
 #include "material/crack_faces.h"
 #include "material/crack_plane.h"
+#include "material/decohesion.h"
 #include "material/renewed_plane.h"
 #include "material/rotating_crack.h"
 
@@ -14,12 +15,6 @@ namespace material
 namespace
 {
 constexpr double surface_tolerance = 1e-10; // of U_0 (D.11 item 22)
-
-/// (1 - lambda^q), the part of the strength left.
-double strength_left(double q, double damage)
-{
-    return q == 1 ? 1 - damage : 1 - std::pow(damage, q);
-}
 
 /// Traction given up by the softening law; advances the damage.
 Traction<double> softened(const SeparationLaw& law, core::Crack& crack, const Traction<double>& trial)
@@ -159,9 +154,9 @@ DecohesionStep separate(const SeparationLaw& law, const core::Crack& crack, cons
         open(law, before, trial, released, faces);
         faces.decohesion_work += turned;
         if (law.renewed_plane && after.damage < 1) renew_plane(after, step, faces);
-        after.effective_length = faces.effective_length;
         if (after.damage >= 1) after.separation_time = step.time;
     }
+    after.effective_length = faces.effective_length;
     after.normal = faces.normal.v;
     after.slip = faces.slip.v;
     after.opening = faces.opening;

@@ -11,9 +11,7 @@ namespace
 /// Velocity gradient [1/ms] of a step: rate of deformation plus spin. It chooses between conjugate planes.
 core::Mat<Real> velocity_gradient(const PointStep& step)
 {
-    const core::Sym<Real>& e = step.strain;
-    const core::Vec<Real>& w = step.rotation;
-    core::Mat<Real> l{{e[0], e[3] - w[2], e[5] + w[1], e[3] + w[2], e[1], e[4] - w[0], e[5] - w[1], e[4] + w[0], e[2]}};
+    core::Mat<Real> l = material::gradient_increment(step.strain, step.rotation);
     for (Real& entry : l.m) entry /= step.dt;
     return l;
 }

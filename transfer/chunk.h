@@ -139,6 +139,14 @@ inline bool all_equal(const std::uint8_t* flags, int count)
     return same;
 }
 
+/// None of `count` particles has decohesion state.
+inline bool none_cracked(const std::int32_t* crack, int count)
+{
+    std::int32_t all = -1; // the sign bit survives only if every index is negative
+    for (int i = 0; i < count; ++i) all &= crack[i];
+    return all < 0;
+}
+
 /// Whom a visit to a cell serves.
 enum class Visitors
 {
@@ -160,10 +168,7 @@ inline bool is_plain(const particles::Particles& particles, std::size_t begin, s
             !all_equal(particles.material.data() + p, Lanes::lanes) ||
             particles.material[p] != particles.material[begin])
             return false;
-    if (particles.cracks.empty()) return true;
-    std::int32_t all = -1; // the sign bit survives only if every index is negative
-    for (std::size_t p = begin; p < end; ++p) all &= particles.crack[p];
-    return all < 0;
+    return particles.cracks.empty() || none_cracked(particles.crack.data() + begin, plain_size);
 }
 
 /// Every lane.
@@ -233,9 +238,7 @@ template <bool Plain = false>
 {
     if constexpr (Plain) return all_lanes();
     const std::int32_t* crack = particles.crack.data() + begin;
-    std::int32_t all = -1;
-    for (int i = 0; i < count; ++i) all &= crack[i];
-    if (all < 0) return all_lanes(); // the sign bit survives only if every index is negative
+    if (none_cracked(crack, count)) return all_lanes();
     return !lanes_where([&](int i) { return crack[i] >= 0; }, count);
 }
 } // namespace transfer

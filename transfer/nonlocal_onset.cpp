@@ -183,18 +183,9 @@ Vec3 at_rest(const core::Mat<Real>& deformation, const std::array<Real, 3>& norm
 struct Neighbour
 {
     Vec3 offset; // mm, to the candidate's cell
-    const core::Crack* crack = nullptr;
-    bool softens = false; // one of the cell's takes up what strains the metal here: neither through nor unloaded
+    std::size_t slot;
+    const core::Crack* crack;
 };
-
-/// The crack of particle p is loaded to at least `idle_loading` of what is left of its strength.
-bool softens(const View& view, const particles::Particles& particles, std::uint32_t p, const core::Crack& crack)
-{
-    if (crack.damage >= 1) return false;
-    const material::Decohesion& law = *view.laws.materials[particles.material[p]].decohesion;
-    const material::PlaneTraction traction = material::plane_traction(stress_of(view, particles, p), {crack.normal});
-    return material::loading(crack, traction) >= idle_loading * (1 - std::pow(crack.damage, law.q));
-}
 
 std::vector<Neighbour> cracks_near(const View& view, const particles::Particles& particles, std::size_t slot,
                                    Real reach)
@@ -202,17 +193,30 @@ std::vector<Neighbour> cracks_near(const View& view, const particles::Particles&
     const OccupiedCell own = occupied_cell(view.levels, slot);
     const Vec3 centre = centre_of(view.levels, own);
     std::vector<Neighbour> neighbours;
-    for (const OccupiedCell& cell : cells_near(view.levels, centre, reach, 0)) {
-        Neighbour neighbour{centre - centre_of(view.levels, cell)};
+    for (const OccupiedCell& cell : cells_near(view.levels, centre, reach, 0))
         for (std::uint32_t p = view.levels.cell_start[cell.slot]; p < view.levels.cell_start[cell.slot + 1]; ++p) {
             if (particles.crack[p] < 0) continue;
-            const core::Crack& crack = particles.cracks[static_cast<std::size_t>(particles.crack[p])];
-            if (neighbour.crack == nullptr) neighbour.crack = &crack;
-            neighbour.softens = neighbour.softens || softens(view, particles, p, crack);
+            neighbours.push_back({centre - centre_of(view.levels, cell), cell.slot,
+                                  &particles.cracks[static_cast<std::size_t>(particles.crack[p])]});
+            break;
         }
-        if (neighbour.crack != nullptr) neighbours.push_back(neighbour);
-    }
     return neighbours;
+}
+
+/// Some crack of the cell takes up what strains the metal there: it is not through, and loaded to at least
+/// `idle_loading` of what is left of its strength.
+bool softens(const View& view, const particles::Particles& particles, std::size_t slot)
+{
+    for (std::uint32_t p = view.levels.cell_start[slot]; p < view.levels.cell_start[slot + 1]; ++p) {
+        if (particles.crack[p] < 0) continue;
+        const core::Crack& crack = particles.cracks[static_cast<std::size_t>(particles.crack[p])];
+        if (crack.damage >= 1) continue;
+        const Real q = view.laws.materials[particles.material[p]].decohesion->q;
+        const material::PlaneTraction traction =
+            material::plane_traction(stress_of(view, particles, p), {crack.normal});
+        if (material::loading(crack, traction) >= idle_loading * material::strength_left(q, crack.damage)) return true;
+    }
+    return false;
 }
 
 Real excess_of(const material::Decohesion& law, const core::Sym<Real>& stress)
@@ -298,9 +302,9 @@ std::vector<Onset> cracks_of(const View& view, const particles::Particles& parti
     const core::Crack& fresh = onset.front().crack; // all have one plane: the tested stress and the bias are the cell's
     const Vec3 normal = at_rest(motion.deformation, fresh.normal);
     for (const Neighbour& other : neighbours)
-        if (other.softens &&
-            excluded(other.offset, at_rest(motion.deformation, other.crack->normal), normal,
-                     std::max(fresh.effective_length, other.crack->effective_length), law.crack_exclusion))
+        if (excluded(other.offset, at_rest(motion.deformation, other.crack->normal), normal,
+                     std::max(fresh.effective_length, other.crack->effective_length), law.crack_exclusion) &&
+            softens(view, particles, other.slot))
             return {};
     return onset;
 }
