@@ -69,6 +69,8 @@ material::Decohesion read_decohesion(Draft& draft, SectionReader& section)
         read_strength(section, "s_max", mode == Mode::shear, as_paper ? std::optional(paper::s_max) : std::nullopt);
     law.tau_max = read_strength(section, "tau_max", mode == Mode::opening,
                                 as_paper ? std::optional(paper::tau_max) : std::nullopt);
+    law.tau_max_axial = section.optional_real("tau_max_axial");
+    if (law.tau_max == infinity) law.tau_max_axial.reset(); // no mode II at all
     law.q = section.real("q");
     law.u0 = section.optional_real("u0");
     law.energy_1 = section.optional_real("G_I");
@@ -99,6 +101,9 @@ material::Decohesion read_decohesion(Draft& draft, SectionReader& section)
         const Vec3 unit = plane->normalized();
         law.weak_plane = {unit[0], unit[1], unit[2]};
     }
+    if (law.weak_plane && section.has("tau_max_axial"))
+        section.error("tau_max_axial", "a weak_plane compares the shear on it with tau_max alone",
+                      "leave out one of the two keys");
     law.rotating_until = section.real("rotating_until");
     if (law.weak_plane && law.rotating_until > 0)
         section.error("rotating_until", "a weak_plane does not rotate", "leave out one of the two keys");

@@ -99,6 +99,8 @@ constexpr Key keys[] = {
         "tensile peak strength on s1; preset paper: 4900; inf: never mode I", dim::stress, positive_or_inf},
     Key{"material.decohesion", "tau_max", real, optional, "",
         "shear peak strength on (s1 - s3) / 2; preset paper: 820; inf: never mode II", dim::stress, positive_or_inf},
+    Key{"material.decohesion", "tau_max_axial", real, optional, "",
+        "the same where two principal stresses are equal, as in a tension bar; default tau_max", dim::stress, positive},
     Key{"material.decohesion", "q", real, defaulted, "1", "exponent of the softening law", {}, positive},
     Key{"material.decohesion", "u0", real, optional, "",
         "reference decohesion; preset paper: 2e-4; give u0 or both energies", dim::length, positive},

@@ -2,6 +2,7 @@
 
 #include "core/contract.h"
 #include "material/band_width.h"
+#include "material/onset.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +66,14 @@ double nominal_surface_energy(const Decohesion& law, Mode mode, const core::Crac
     const double share = mode == Mode::opening ? 0 : mode == Mode::shear ? 1 : load.shear / load.total();
     return (opening + share * (shear - opening)) * (law.q + 1) / law.q;
 }
+
+std::optional<Mode> failing_mode(bool opens, bool shears)
+{
+    if (opens && shears) return Mode::mixed;
+    if (opens) return Mode::opening;
+    if (shears) return Mode::shear;
+    return std::nullopt;
+}
 } // namespace
 
 PlaneTraction plane_traction(const core::Sym<double>& stress, const core::Vec<double>& normal)
@@ -80,19 +89,26 @@ double loading(const core::Crack& crack, const PlaneTraction& traction)
     return std::sqrt(shares_of_loading(crack, traction).total());
 }
 
+bool may_start(const Decohesion& law, const core::Sym<double>& stress)
+{
+    return may_start(stress, law.s_max, least_shear_strength(law));
+}
+
+double onset_ratio(const Decohesion& law, const Principal& stress)
+{
+    const auto [s1, s2, s3] = stress.value;
+    return std::max(s1 / law.s_max, (s1 - s3) / (2 * shear_strength(s1, s2, s3, law.tau_max, axial_rise(law))));
+}
+
 std::optional<Mode> failing_mode(const Decohesion& law, const PlaneTraction& traction)
 {
-    const bool opens = traction.normal > law.s_max;
-    const bool shears = traction.shear > law.tau_max;
-    if (opens && shears) return Mode::mixed;
-    if (opens) return Mode::opening;
-    if (shears) return Mode::shear;
-    return std::nullopt;
+    return failing_mode(traction.normal > law.s_max, traction.shear > law.tau_max);
 }
 
 std::optional<Mode> failing_mode(const Decohesion& law, const Principal& stress)
 {
-    return failing_mode(law, PlaneTraction{stress.value[0], (stress.value[0] - stress.value[2]) / 2});
+    const auto [s1, s2, s3] = stress.value;
+    return failing_mode(s1 > law.s_max, (s1 - s3) / 2 > shear_strength(s1, s2, s3, law.tau_max, axial_rise(law)));
 }
 
 std::optional<core::Crack> onset(const Decohesion& law, const Elastic& elastic, const core::Sym<double>& test_stress,

@@ -1,7 +1,8 @@
 /// Onset of decohesion after Yang et al. 2014: when a particle begins to separate, on which plane, how strong, how
 /// tough.
 ///
-///   opening s_1 > s_max only, shear (s_1 - s_3)/2 > tau_max only, mixed both;      c_m = tau_tf / tau_nf
+///   opening s_1 > s_max only, shear (s_1 - s_3)/2 > tau(L) only, mixed both;       c_m = tau_tf / tau_nf
+///   tau(L) = tau_max + (tau_max_axial - tau_max) L^2,   L = (2 s_2 - s_1 - s_3) / (s_1 - s_3)
 ///   tau_nf = sqrt(<tau_n>^2 + tau_t^2 / c_m^2),   tau_tf = c_m tau_nf              (F = 0 at onset)
 ///   L_e = c_b h (|n_x| + |n_y| + |n_z|),   U_0 = G_f (q + 1) / q  or  u_0 tau_0
 ///
@@ -14,6 +15,7 @@
 #include "material/crack_plane.h"
 #include "material/material.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -37,6 +39,25 @@ inline double strength_left(double q, double damage)
 /// Loading phi [1] of a traction on the crack's plane or another: sqrt((<tau_n>/tau_nf)^2 + (|tau_t|/tau_tf)^2), which
 /// the crack softens at when it is `strength_left`.
 double loading(const core::Crack& crack, const PlaneTraction& traction);
+
+/// Shear strength of uniaxial tension over that of shear [MPa]; 0 where the law makes no difference.
+inline double axial_rise(const Decohesion& law)
+{
+    return law.tau_max_axial ? *law.tau_max_axial - law.tau_max : 0;
+}
+
+/// The least shear strength of all states [MPa].
+inline double least_shear_strength(const Decohesion& law)
+{
+    return law.tau_max + std::min(axial_rise(law), 0.0);
+}
+
+/// The cheap test of material/onset.h with the strengths of a law: false where no criterion can be met.
+bool may_start(const Decohesion& law, const core::Sym<double>& stress);
+
+/// How far a stress exceeds the criteria [1]: the largest ratio of stress to strength, s_1 / s_max or
+/// (s_1 - s_3) / (2 tau(L)); above 1 where failing_mode names one.
+double onset_ratio(const Decohesion& law, const Principal& stress);
 
 /// Mode that a stress starts, by the three criteria of the paper; none while both strengths hold.
 std::optional<Mode> failing_mode(const Decohesion& law, const Principal& stress);

@@ -54,8 +54,10 @@ enum class OnsetStrength
 /// reference decohesion u0, or the fracture energies of the two modes.
 struct Decohesion
 {
-    Real s_max = 0;               // MPa, tensile strength on s1; infinity: never mode I
-    Real tau_max = 0;             // MPa, shear strength on (s1 - s3) / 2; infinity: never mode II
+    Real s_max = 0;   // MPa, tensile strength on s1; infinity: never mode I
+    Real tau_max = 0; // MPa, shear strength on (s1 - s3) / 2 in plane strain; infinity: never mode II
+    /// MPa, the same where two principal stresses are equal, as in a tension bar; empty: tau_max.
+    std::optional<Real> tau_max_axial;
     Real q = 1;                   // 1, exponent of the softening law
     std::optional<Real> u0;       // mm, reference decohesion (preset paper)
     std::optional<Real> energy_1; // N/mm, G_fI

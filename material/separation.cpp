@@ -123,6 +123,7 @@ SeparationLaw separation_law(const Material& material)
     law.second_crack = decohesion.second_crack;
     law.second_tension = decohesion.s_max;
     law.second_shear = decohesion.tau_max;
+    law.axial_rise = axial_rise(decohesion);
     return law;
 }
 

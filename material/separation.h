@@ -36,6 +36,7 @@ struct SeparationLaw
     bool second_crack = false;                       // stress along an open crack lets go at these strengths
     double second_tension = 0;                       // MPa
     double second_shear = 0;                         // MPa
+    double axial_rise = 0;                           // MPa, of the shear strength where the state is that of a bar
 };
 
 /// @pre material.decohesion is set

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace solver
 {
@@ -27,6 +28,7 @@ LigamentColumns columns_of(const Problem& problem, const Ligament& ligament)
     LigamentColumns columns;
     columns.axis_u = (ligament.through + 1) % 3;
     columns.axis_v = (ligament.through + 2) % 3;
+    columns.axis_w = ligament.through;
     const Real h = columns.spacing = problem.grid.cell / static_cast<Real>(1 << (problem.grid.levels - 1));
     std::array<Real, 2> lower = ligament.corridor[0], upper = lower;
     for (const auto& corner : ligament.corridor)
@@ -42,6 +44,7 @@ LigamentColumns columns_of(const Problem& problem, const Ligament& ligament)
     }
     columns.lower_u = lower[0];
     columns.lower_v = lower[1];
+    columns.lower_w = problem.grid.origin[columns.axis_w];
     columns.count_u = count[0];
     columns.count_v = count[1];
 
@@ -66,10 +69,10 @@ LigamentColumns columns_of(const Problem& problem, const Ligament& ligament)
     return columns;
 }
 
-/// Contents of one ligament's columns at one time.
+/// Contents of one ligament's cells at one time.
 struct Contents
 {
-    std::vector<Real> separated; // mm^3, rest volume of the particles with damage 1
+    std::vector<Real> separated; // mm^3, as LigamentColumns::volume, of the particles with damage 1
     bool damaged = false;        // some particle has damage > 0
     bool any_separated = false;  // some particle has damage 1
 };
@@ -90,35 +93,48 @@ std::int32_t column_of(const LigamentColumns& columns, const particles::Particle
                           particles.rest_position[static_cast<std::size_t>(columns.axis_v)][p]);
 }
 
+Real across(const LigamentColumns& columns, const particles::Particles& particles, std::size_t p)
+{
+    return particles.rest_position[static_cast<std::size_t>(columns.axis_w)][p];
+}
+
 /// @param places  particles with decohesion state: nobody else is looked at
 Contents contents_of(const LigamentColumns& columns, const particles::Particles& particles,
                      const std::vector<std::uint32_t>& places)
 {
     Contents contents;
-    contents.separated.assign(columns.inside.size(), 0);
+    contents.separated.assign(columns.volume.size(), 0);
     for (const std::uint32_t p : places) {
         const std::int32_t column = column_of(columns, particles, p);
         if (column < 0) continue;
         const Real damage = particles.cracks[static_cast<std::size_t>(particles.crack[p])].damage;
         contents.damaged = contents.damaged || damage > 0;
         if (damage < 1) continue;
-        contents.separated[static_cast<std::size_t>(column)] += particles.rest_volume[p];
+        contents.separated[columns.cell(column, across(columns, particles, p))] += particles.rest_volume[p];
         contents.any_separated = true;
     }
     return contents;
 }
 
-/// 1 for the broken columns.
-std::vector<std::uint8_t> broken_columns(const LigamentColumns& columns, const Contents& contents)
+/// 1 where at least `broken_share` of the volume is separated.
+std::vector<std::uint8_t> broken(const std::vector<Real>& separated, const std::vector<Real>& volume)
 {
-    std::vector<std::uint8_t> broken(columns.volume.size());
-    for (std::size_t c = 0; c < broken.size(); ++c)
-        broken[c] = contents.separated[c] > 0 && contents.separated[c] >= broken_share * columns.volume[c];
-    return broken;
+    std::vector<std::uint8_t> result(volume.size());
+    for (std::size_t c = 0; c < result.size(); ++c)
+        result[c] = separated[c] > 0 && separated[c] >= broken_share * volume[c];
+    return result;
 }
 
-/// Whether broken columns, joined by sides or corners, lead from one feature to the other.
-bool joins(const LigamentColumns& columns, const std::vector<std::uint8_t>& broken)
+/// Sums over the layers, by column.
+std::vector<Real> column_sums(const LigamentColumns& columns, const std::vector<Real>& cells)
+{
+    std::vector<Real> sums(columns.inside.size());
+    for (std::size_t c = 0; c < cells.size(); ++c) sums[c % sums.size()] += cells[c];
+    return sums;
+}
+
+/// Whether broken columns, or cells of one layer, joined by sides or corners, lead from one feature to the other.
+bool joins(const LigamentColumns& columns, std::span<const std::uint8_t> broken)
 {
     std::vector<std::int32_t> front;
     std::vector<std::uint8_t> seen(broken.size());
@@ -144,8 +160,21 @@ bool joins(const LigamentColumns& columns, const std::vector<std::uint8_t>& brok
     return false;
 }
 
+/// Whether broken cells lead from one feature to the other in enough of the layers.
+bool joins_in_layers(const LigamentColumns& columns, const Contents& contents)
+{
+    const std::vector<std::uint8_t> cells = broken(contents.separated, columns.volume);
+    const std::size_t count = columns.inside.size();
+    int joined = 0;
+    for (int layer = 0; layer < columns.layers; ++layer)
+        joined += joins(columns, std::span(cells).subspan(static_cast<std::size_t>(layer) * count, count));
+    return joined >= broken_share * columns.layers;
+}
+
 /// Share of the stations with material that have a broken column.
-Real broken_front(const LigamentColumns& columns, const std::vector<std::uint8_t>& broken)
+/// @param volume  mm^3, of the columns
+Real broken_front(const LigamentColumns& columns, const std::vector<std::uint8_t>& broken,
+                  const std::vector<Real>& volume)
 {
     if (columns.station.empty()) return 0;
     const auto [first, last] = std::minmax_element(columns.station.begin(), columns.station.end());
@@ -154,7 +183,7 @@ Real broken_front(const LigamentColumns& columns, const std::vector<std::uint8_t
         std::uint8_t& value = station[static_cast<std::size_t>(columns.station[c] - *first)];
         if (broken[c])
             value = 2;
-        else if (columns.volume[c] > 0)
+        else if (volume[c] > 0)
             value = std::max<std::uint8_t>(value, 1);
     }
     const auto material = std::count_if(station.begin(), station.end(), [](std::uint8_t s) { return s > 0; });
@@ -179,6 +208,12 @@ std::int32_t LigamentColumns::column(Real u, Real v) const
     return inside[static_cast<std::size_t>(c)] ? c : -1;
 }
 
+std::size_t LigamentColumns::cell(std::int32_t column, Real w) const
+{
+    const auto layer = static_cast<std::size_t>(std::clamp(static_cast<int>((w - lower_w) / spacing), 0, layers - 1));
+    return layer * inside.size() + static_cast<std::size_t>(column);
+}
+
 LigamentMap ligament_map(const Problem& problem)
 {
     LigamentMap map;
@@ -189,10 +224,21 @@ LigamentMap ligament_map(const Problem& problem)
 void weigh_columns(const particles::Particles& particles, LigamentMap& map)
 {
     for (LigamentColumns& columns : map.ligaments) {
-        columns.volume.assign(columns.inside.size(), 0);
+        Real lowest = std::numeric_limits<Real>::infinity(), highest = -lowest;
+        for (std::size_t p = 0; p < particles.size(); ++p) {
+            if (column_of(columns, particles, p) < 0) continue;
+            lowest = std::min(lowest, across(columns, particles, p));
+            highest = std::max(highest, across(columns, particles, p));
+        }
+        if (lowest <= highest) {
+            columns.lower_w += columns.spacing * std::floor((lowest - columns.lower_w) / columns.spacing);
+            columns.layers = static_cast<int>((highest - columns.lower_w) / columns.spacing) + 1;
+        }
+        columns.volume.assign(static_cast<std::size_t>(columns.layers) * columns.inside.size(), 0);
         for (std::size_t p = 0; p < particles.size(); ++p) {
             const std::int32_t column = column_of(columns, particles, p);
-            if (column >= 0) columns.volume[static_cast<std::size_t>(column)] += particles.rest_volume[p];
+            if (column < 0) continue;
+            columns.volume[columns.cell(column, across(columns, particles, p))] += particles.rest_volume[p];
         }
     }
 }
@@ -207,16 +253,17 @@ void update_ligaments(const LigamentMap& map, const particles::Particles& partic
     for (std::size_t i = 0; i < ligaments.size(); ++i) {
         const LigamentColumns& columns = map.ligaments[i];
         LigamentState& state = ligaments[i];
+        CLEAVE_EXPECTS(columns.layers > 0);
         const Contents contents = contents_of(columns, particles, places);
         if (!contents.damaged) continue;
         note(now, state.onset_time, state.onset_force, state.onset_cod);
         if (!contents.any_separated) continue;
-        CLEAVE_EXPECTS(columns.volume.size() == columns.inside.size());
-        const std::vector<std::uint8_t> broken = broken_columns(columns, contents);
-        if (std::find(broken.begin(), broken.end(), 1) == broken.end()) continue;
+        const std::vector<Real> volume = column_sums(columns, columns.volume);
+        const std::vector<std::uint8_t> cut = broken(column_sums(columns, contents.separated), volume);
+        if (std::find(cut.begin(), cut.end(), 1) == cut.end()) continue;
         note(now, state.first_time, state.first_force, state.first_cod);
-        state.front = broken_front(columns, broken);
-        if (state.through_time < 0 && joins(columns, broken))
+        state.front = broken_front(columns, cut, volume);
+        if (state.through_time < 0 && (joins(columns, cut) || joins_in_layers(columns, contents)))
             note(now, state.through_time, state.through_force, state.through_cod);
     }
 }

@@ -2,7 +2,9 @@
 ///
 /// A ligament's corridor is divided into columns along the thickness, one finest cell wide, on the reference lattice. A
 /// column is broken when `broken_share` of the rest volume in it belongs to separated particles. The ligament is
-/// through when broken columns that touch at least by a corner lead from one feature to the other.
+/// through when broken columns that touch at least by a corner lead from one feature to the other, or when cells broken
+/// in the same sense do so in `broken_share` of the layers across the thickness: a slanted crack leaves no column whole
+/// and breaks none.
 ///
 /// The columns of one ligament never change, only their contents: splitting and reordering of particles do not matter.
 /// Neglected: particles more than one level coarser than the finest leave gaps between their columns.
@@ -27,6 +29,7 @@ inline constexpr Real touching_distance = 1.5;
 struct LigamentColumns
 {
     int axis_u = 0, axis_v = 1;    // the plane normal to the thickness, cyclic order
+    int axis_w = 2;                // the thickness
     Real spacing = 0;              // mm, finest
     Real lower_u = 0, lower_v = 0; // mm, corner of column (0, 0), on the reference lattice
     int count_u = 0, count_v = 0;
@@ -34,10 +37,14 @@ struct LigamentColumns
     std::vector<std::uint8_t> touches_from; // likewise, 1: touches feature `from`
     std::vector<std::uint8_t> touches_to;   // likewise
     std::vector<std::int32_t> station;      // likewise, position along the line from `from` to `to`, in columns
-    std::vector<Real> volume;               // likewise, mm^3, rest volume of its particles (weigh_columns)
+    Real lower_w = 0;                       // mm, of the lowest layer with particles (weigh_columns)
+    int layers = 0;                         // across the thickness, one finest cell each (weigh_columns)
+    std::vector<Real> volume; // mm^3, [layer * columns + column], rest volume of the cell's particles (weigh_columns)
 
     /// Column of a rest position, -1 outside of the corridor.
     std::int32_t column(Real u, Real v) const;
+    /// Place in `volume` of a cell of the column.
+    std::size_t cell(std::int32_t column, Real w) const;
 };
 
 /// Geometry of every ligament of a problem, in its order; built once.
@@ -49,7 +56,7 @@ struct LigamentMap
 /// @pre corridors are polygons of at least three corners; `from` and `to` name features of the problem
 LigamentMap ligament_map(const Problem& problem);
 
-/// Rest volume of every column; again whenever particles were split.
+/// Rest volume of every cell of the columns; again whenever particles were split.
 void weigh_columns(const particles::Particles& particles, LigamentMap& map);
 
 /// What is written down when something happens.

@@ -1,5 +1,7 @@
 #include "transfer/law_table.h"
 
+#include "material/decohesion.h"
+
 #include <algorithm>
 
 namespace transfer
@@ -20,7 +22,7 @@ LawTable law_table(const std::vector<material::Material>& materials)
         c.per_overstress = 1 / (3 * c.shear + c.hardening);
         if (m.decohesion) {
             c.tensile_onset = m.decohesion->s_max;
-            c.shear_onset = m.decohesion->tau_max;
+            c.shear_onset = material::least_shear_strength(*m.decohesion);
             table.any_decohesion = true;
             const Real radius = m.decohesion->nonlocal_radius;
             if (radius > 0)

@@ -2,7 +2,6 @@
 
 #include "core/parallel.h"
 #include "material/decohesion.h"
-#include "material/onset.h"
 #include "particles/tensors.h"
 #include "transfer/chunk.h"
 #include "transfer/middle_gradient.h"
@@ -86,7 +85,7 @@ void append_near(const View& view, const particles::Particles& particles, std::s
         if (!law) continue;
         const bool known = std::any_of(candidates.begin() + static_cast<std::ptrdiff_t>(first), candidates.end(),
                                        [&](const Candidate& other) { return other.material == material; });
-        if (known || !material::may_start(stress_of(view, particles, p), law->s_max, law->tau_max)) continue;
+        if (known || !material::may_start(*law, stress_of(view, particles, p))) continue;
         candidates.push_back({slot, material});
     }
 }
@@ -221,9 +220,7 @@ bool softens(const View& view, const particles::Particles& particles, std::size_
 
 Real excess_of(const material::Decohesion& law, const core::Sym<Real>& stress)
 {
-    if (!material::may_start(stress, law.s_max, law.tau_max)) return 0;
-    const auto [s1, s2, s3] = material::principal(stress).value;
-    return std::max(s1 / law.s_max, (s1 - s3) / (2 * law.tau_max));
+    return material::may_start(law, stress) ? material::onset_ratio(law, material::principal(stress)) : 0;
 }
 
 /// Mean stress of the intact particles of a ball.

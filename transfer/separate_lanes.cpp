@@ -1,7 +1,6 @@
 #include "transfer/separate_lanes.h"
 
 #include "material/decohesion.h"
-#include "material/onset.h"
 #include "particles/tensors.h"
 #include "transfer/separate_particle.h"
 
@@ -83,7 +82,7 @@ void start_cracks(const PassOptions& options, const LawTable& laws, const partic
         const core::Sym<Real>& own = stresses[p - begin];
         const core::Sym<Real>& test = material.decohesion->smoothed_onset ? mean : own;
         // The lanes were flagged for their own stresses, and one flags the whole cell.
-        if (!material::may_start(test, material.decohesion->s_max, material.decohesion->tau_max)) continue;
+        if (!material::may_start(*material.decohesion, test)) continue;
         material::Bias bias{gradients[p - begin], nearest_normal(particles, begin, end)};
         for (Real& entry : bias.velocity_gradient.m) entry *= per_dt;
         auto crack = material::onset(*material.decohesion, material.elastic, test, own, bias, spacing, options.time);

@@ -28,20 +28,22 @@ TEST_F(CaseError, misspelt_key)
         "      | ^~~~~~  did you mean 'tau_max'?\n"
         "   keys here: G_I, G_II, band_factor, c_m, c_m_mixed, c_m_opening, c_m_shear, crack_exclusion, "
         "drop_transits, energy_floor_factor, friction, mode, nonlocal_radius, onset_strength, preset, q, "
-        "renewed_plane, rotating_until, s_max, second_crack, smoothed_onset, snap_back, tau_max, u0, weak_plane     "
+        "renewed_plane, rotating_until, s_max, second_crack, smoothed_onset, snap_back, tau_max, tau_max_axial, u0, "
+        "weak_plane     "
         "(cleave keys material.decohesion)\n"
         "2 errors");
 }
 
 TEST_F(CaseError, weak_plane_needs_a_normal_and_does_not_rotate)
 {
-    const std::string text = complaint(
-        with(valid_case, "tau_max =",
-             "weak_plane = [0, 0, 0]\nrotating_until = 0.5\nrenewed_plane = true\nsecond_crack = true\ntau_max ="));
+    const std::string text = complaint(with(valid_case, "tau_max =",
+                                            "weak_plane = [0, 0, 0]\nrotating_until = 0.5\nrenewed_plane = "
+                                            "true\nsecond_crack = true\ntau_max_axial = 900\ntau_max ="));
     EXPECT_TRUE(contains(text, "case.toml:12:14: error: a plane needs a normal other than zero\n"));
     EXPECT_TRUE(contains(text, "case.toml:13:18: error: a weak_plane does not rotate\n"));
     EXPECT_TRUE(contains(text, "case.toml:14:17: error: a weak_plane stays where it is\n"));
     EXPECT_TRUE(contains(text, "case.toml:15:16: error: a weak_plane is the only plane that can break\n"));
+    EXPECT_TRUE(contains(text, "case.toml:16:17: error: a weak_plane compares the shear on it with tau_max alone\n"));
 }
 
 TEST_F(CaseError, misspelt_section)

@@ -55,6 +55,7 @@ void expect_equal_materials(const material::Material& a, const material::Materia
     const material::Decohesion &x = *a.decohesion, &y = *b.decohesion;
     EXPECT_EQ(x.s_max, y.s_max);
     EXPECT_EQ(x.tau_max, y.tau_max);
+    EXPECT_EQ(x.tau_max_axial, y.tau_max_axial);
     EXPECT_EQ(x.q, y.q);
     EXPECT_EQ(x.u0, y.u0);
     EXPECT_EQ(x.energy_1, y.energy_1);
@@ -358,6 +359,19 @@ TEST_F(Case, precision_of_particles_is_double_unless_asked)
     const std::string resolved = io::resolved_toml(write(valid_case), {"numerics.precision=mixed"});
     EXPECT_NE(resolved.find("transfer = \"nodal\""), std::string::npos);
     EXPECT_EQ(io::read_case(write(resolved)).numerics.precision, solver::Precision::mixed);
+}
+
+TEST_F(Case, shear_strength_of_tension_bars)
+{
+    const std::string text = with(valid_case, "tau_max =", "tau_max_axial = \"1 GPa\"\ntau_max =");
+    const auto law = [&](std::string_view file, const std::vector<std::string>& overrides = {}) {
+        return *io::read_case(write(file), overrides).materials.at(0).decohesion;
+    };
+    EXPECT_NEAR(law(text).tau_max_axial.value(), 1000, 1e-9);
+    EXPECT_FALSE(law(valid_case).tau_max_axial.has_value());
+    const std::vector<std::string> opening{"material.steel.decohesion.mode=opening"};
+    EXPECT_FALSE(law(text, opening).tau_max_axial.has_value()); // no mode II at all
+    EXPECT_NEAR(law(io::resolved_toml(write(text))).tau_max_axial.value(), 1000, 1e-9);
 }
 
 TEST_F(Case, paper_preset)

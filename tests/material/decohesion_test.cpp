@@ -1,6 +1,8 @@
 /// material/decohesion.h: mode, strengths, effective length and energy at onset against the table of methods.md D.6.
 #include "material/decohesion.h"
 
+#include "material/onset.h"
+#include "material/principal.h"
 #include "tests/material/samples.h"
 
 #include <gtest/gtest.h>
@@ -59,6 +61,61 @@ TEST(Onset, mode_follows_the_three_criteria)
     Decohesion only_opening = law;
     only_opening.tau_max = infinite;
     EXPECT_EQ(crack_of(only_opening, just_mixed).mode, 1);
+}
+
+TEST(Onset, lode_parameter_of_known_states)
+{
+    const auto lode = [](const Sym& stress) {
+        const auto [s1, s2, s3] = principal(stress).value;
+        return lode_parameter(s1, s2, s3);
+    };
+    EXPECT_NEAR(lode({{700, 0, 0, 0, 0, 0}}), -1, 1e-12);    // tension
+    EXPECT_NEAR(lode({{-700, 0, 0, 0, 0, 0}}), 1, 1e-12);    // compression
+    EXPECT_NEAR(lode({{0, 0, 0, 500, 0, 0}}), 0, 1e-12);     // shear
+    EXPECT_NEAR(lode({{900, 500, 100, 0, 0, 0}}), 0, 1e-12); // plane strain of a metal that flows
+    EXPECT_NEAR(lode({{900, 300, 100, 0, 0, 0}}), -0.5, 1e-12);
+    EXPECT_EQ(lode({{300, 300, 300, 0, 0, 0}}), 0);
+}
+
+TEST(Onset, shear_strength_between_shear_and_tension_bar_is_quadratic_in_the_lode_parameter)
+{
+    Decohesion law = paper();
+    law.s_max = infinite;
+    EXPECT_EQ(crack_of(law, {{1640.02, 0, 0, 0, 0, 0}}).mode, 2); // without the key: Tresca
+    law.tau_max_axial = 1000;
+    const auto starts = [&](const Sym& stress) {
+        return onset(law, steel(), stress, stress, {}, spacing, 0).has_value();
+    };
+    EXPECT_TRUE(starts({{0, 0, 0, 820.01, 0, 0}}));
+    EXPECT_FALSE(starts({{0, 0, 0, 819.99, 0, 0}}));
+    EXPECT_TRUE(starts({{2000.01, 0, 0, 0, 0, 0}}));
+    EXPECT_FALSE(starts({{1999.99, 0, 0, 0, 0, 0}}));
+    EXPECT_TRUE(starts({{-2000.01, 0, 0, 0, 0, 0}}));
+    EXPECT_FALSE(starts({{-1999.99, 0, 0, 0, 0, 0}}));
+    const double half_way = 820 + 0.25 * (1000 - 820);
+    const auto at_half = [](double shear) { return Sym{{2 * shear, shear / 2, 0, 0, 0, 0}}; }; // L = -1/2
+    EXPECT_TRUE(starts(at_half(half_way + 0.01)));
+    EXPECT_FALSE(starts(at_half(half_way - 0.01)));
+    EXPECT_NEAR(onset_ratio(law, principal(at_half(1.2 * half_way))), 1.2, 1e-12);
+}
+
+TEST(Onset, the_cheap_test_never_clears_what_the_law_starts)
+{
+    Samples samples;
+    int starting = 0;
+    for (int k = 0; k < 20000; ++k) {
+        Decohesion law = paper();
+        law.s_max = samples.uniform(500, 2500);
+        law.tau_max = samples.uniform(500, 2000);
+        law.tau_max_axial = samples.uniform(500, 2000); // also below tau_max
+        const Sym stress = samples.tensor(1000);
+        const Principal p = principal(stress);
+        ASSERT_EQ(failing_mode(law, p).has_value(), onset_ratio(law, p) > 1);
+        if (!failing_mode(law, p)) continue;
+        ++starting;
+        ASSERT_TRUE(may_start(law, stress));
+    }
+    EXPECT_GT(starting, 2000);
 }
 
 TEST(Onset, starts_on_the_loading_surface)

@@ -2,6 +2,7 @@
 /// locking (B14), mode noise (B29), objectivity.
 #include "material/separation.h"
 
+#include "material/onset.h"
 #include "tests/material/probe.h"
 
 #include <numbers>
@@ -485,14 +486,22 @@ TEST(Separate, a_second_crack_lets_go_what_pulls_along_an_open_one)
 
 TEST(Separate, shear_breaks_an_open_crack_across_before_tension_does)
 {
-    Probe probe = wide_open(true);
-    probe.law.second_tension = 2000;
-    Sym last{};
-    while (probe.crack.second_time < 0 && probe.time < 1) {
-        last = probe.stress;
-        stretch_along(probe, 1e-6, 1);
+    for (const double axial_rise : {0.0, 200.0}) {
+        Probe probe = wide_open(true);
+        probe.law.second_tension = 2000;
+        probe.law.axial_rise = axial_rise;
+        Sym last{};
+        while (probe.crack.second_time < 0 && probe.time < 1) {
+            last = probe.stress;
+            stretch_along(probe, 1e-6, 1);
+        }
+        const auto [s1, s2, s3] = principal(last).value;
+        EXPECT_NEAR(s1, last[1], 1e-9);
+        EXPECT_NEAR(s3, 0, 1e-9);
+        const double lode = lode_parameter(s1, s2, s3);
+        EXPECT_GT(lode * lode, 0.03);
+        EXPECT_NEAR(last[1], 2 * (600 + axial_rise * lode * lode), 1);
     }
-    EXPECT_NEAR(last[1], 1200, 1); // (s_yy - 0) / 2 = 600
 }
 
 TEST(Separate, what_pushes_along_an_open_crack_or_is_not_asked_for_does_not_break)

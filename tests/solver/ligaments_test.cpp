@@ -205,6 +205,22 @@ TEST(Ligaments, a_gap_separates_and_a_corner_joins)
     EXPECT_FALSE(through([](const Vec3& x) { return strip(3, 4.5)(x + Vec3(0, 2 * h, 0)); })); // two rows lower
 }
 
+TEST(Ligaments, a_slanted_crack_separates_if_it_is_through_in_nine_tenths_of_the_layers)
+{
+    const Problem problem = plate();
+    const LigamentMap map = map_of(problem, particles_of(problem));
+    for (const bool last_layer : {false, true}) {
+        particles::Particles particles = particles_of(problem);
+        const auto slanted = [](const Vec3& x) { return strip(1, 5)(x - Vec3(0, h * std::floor(x[2] / h) - h, 0)); };
+        crack(particles, 1, [&](const Vec3& x) { return slanted(x) && (last_layer || x[2] < 1 - h); });
+        crack(particles, 1, strip(2, 2 + h)); // one column through
+        std::vector<LigamentState> states;
+        update_ligaments(map, particles, {1, 0, 0}, states);
+        EXPECT_EQ(states[0].through_time >= 0, last_layer);
+        EXPECT_NEAR(states[0].front, 1.0 / 16, 1e-12); // one station of those between the centres
+    }
+}
+
 TEST(Ligaments, a_crack_outside_of_the_corridor_does_not_count)
 {
     const Problem problem = plate();
