@@ -253,7 +253,7 @@ void update_ligaments(const LigamentMap& map, const particles::Particles& partic
     for (std::size_t i = 0; i < ligaments.size(); ++i) {
         const LigamentColumns& columns = map.ligaments[i];
         LigamentState& state = ligaments[i];
-        CLEAVE_EXPECTS(columns.layers > 0);
+        if (columns.layers == 0) continue; // no metal in the corridor
         const Contents contents = contents_of(columns, particles, places);
         if (!contents.damaged) continue;
         note(now, state.onset_time, state.onset_force, state.onset_cod);

@@ -38,7 +38,7 @@ struct LigamentColumns
     std::vector<std::uint8_t> touches_to;   // likewise
     std::vector<std::int32_t> station;      // likewise, position along the line from `from` to `to`, in columns
     Real lower_w = 0;                       // mm, of the lowest layer with particles (weigh_columns)
-    int layers = 0;                         // across the thickness, one finest cell each (weigh_columns)
+    int layers = 0;           // across the thickness, one finest cell each; 0: no particles (weigh_columns)
     std::vector<Real> volume; // mm^3, [layer * columns + column], rest volume of the cell's particles (weigh_columns)
 
     /// Column of a rest position, -1 outside of the corridor.

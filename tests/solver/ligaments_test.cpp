@@ -221,6 +221,18 @@ TEST(Ligaments, a_slanted_crack_separates_if_it_is_through_in_nine_tenths_of_the
     }
 }
 
+TEST(Ligaments, a_corridor_without_metal_never_breaks)
+{
+    Problem problem = plate();
+    problem.ligaments[1].corridor = {{9, 1}, {10, 1}, {10, 3}, {9, 3}};
+    particles::Particles particles = particles_of(problem);
+    crack(particles, 1, strip(1, 5));
+    std::vector<LigamentState> states;
+    update_ligaments(map_of(problem, particles), particles, {1, 0, 0}, states);
+    EXPECT_GE(states[0].through_time, 0);
+    EXPECT_LT(states[1].onset_time, 0);
+}
+
 TEST(Ligaments, a_crack_outside_of_the_corridor_does_not_count)
 {
     const Problem problem = plate();
