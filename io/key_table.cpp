@@ -182,7 +182,8 @@ constexpr Key keys[] = {
     Key{"material.decohesion", "renewed_plane", boolean, defaulted, "false",
         "a crack that softens goes on along another plane where the stress reaches its strength there again"},
     Key{"material.decohesion", "second_crack", boolean, defaulted, "false",
-        "stress along an open crack lets go when it reaches s_max or tau_max: a second crack crosses the first"},
+        "stress along an open crack lets go when it reaches s_max or the shear strength: a second crack crosses the "
+        "first"},
     Key{"material.decohesion",
         "friction",
         real,

@@ -93,7 +93,7 @@ constexpr Traction<T> unsupported(const SeparationLaw& law, const Faces<T>& face
 inline constexpr double closed_opening = 1e-9;
 
 /// A second crack (docs/decisions/022). Where the first one stands open the stress that is left lies in its plane, with
-/// the principal values a >= b = I1/2 -+ sqrt(sigma:sigma/2 - I1^2/4) beside zero. When they pull more than they push
+/// the principal values a >= b = I1/2 +- sqrt(sigma:sigma/2 - I1^2/4) beside zero. When they pull more than they push
 /// and reach a strength, a > s_max or (a - min(b, 0))/2 > tau(L), the metal breaks there too: what it has stored is
 /// dissipated, and from then on it carries stress only while the first crack is closed.
 template <class T>
@@ -102,8 +102,8 @@ constexpr void break_across(const SeparationLaw& law, Faces<T>& faces)
     const T zero(0.0), half(0.5), squared = core::contract(faces.stress, faces.stress);
     const T middle = half * core::trace(faces.stress);
     const T radius = core::sqrt(core::max(half * squared - middle * middle, zero));
-    const T high = middle + radius, low = core::min(middle - radius, zero), between = core::max(middle - radius, zero);
-    const T shear_limit = shear_strength(high, between, low, law.second_shear, law.axial_rise);
+    const T high = middle + radius, other = middle - radius, low = core::min(other, zero);
+    const T shear_limit = shear_strength(high, core::max(other, zero), low, law.second_shear, law.axial_rise);
     const auto open = faces.opening > T(closed_opening) * faces.effective_length;
     const auto fails = (high > T(law.second_tension)) | ((middle > zero) & (half * (high - low) > shear_limit));
     const auto breaks = open & (faces.crossed <= zero) & fails;

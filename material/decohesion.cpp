@@ -67,6 +67,13 @@ double nominal_surface_energy(const Decohesion& law, Mode mode, const core::Crac
     return (opening + share * (shear - opening)) * (law.q + 1) / law.q;
 }
 
+/// tau(L) of material/onset.h.
+double shear_limit(const Decohesion& law, const Principal& stress)
+{
+    const auto [s1, s2, s3] = stress.value;
+    return shear_strength(s1, s2, s3, law.tau_max, axial_rise(law));
+}
+
 std::optional<Mode> failing_mode(bool opens, bool shears)
 {
     if (opens && shears) return Mode::mixed;
@@ -97,7 +104,7 @@ bool may_start(const Decohesion& law, const core::Sym<double>& stress)
 double onset_ratio(const Decohesion& law, const Principal& stress)
 {
     const auto [s1, s2, s3] = stress.value;
-    return std::max(s1 / law.s_max, (s1 - s3) / (2 * shear_strength(s1, s2, s3, law.tau_max, axial_rise(law))));
+    return std::max(s1 / law.s_max, (s1 - s3) / (2 * shear_limit(law, stress)));
 }
 
 std::optional<Mode> failing_mode(const Decohesion& law, const PlaneTraction& traction)
@@ -108,7 +115,7 @@ std::optional<Mode> failing_mode(const Decohesion& law, const PlaneTraction& tra
 std::optional<Mode> failing_mode(const Decohesion& law, const Principal& stress)
 {
     const auto [s1, s2, s3] = stress.value;
-    return failing_mode(s1 > law.s_max, (s1 - s3) / 2 > shear_strength(s1, s2, s3, law.tau_max, axial_rise(law)));
+    return failing_mode(s1 > law.s_max, (s1 - s3) / 2 > shear_limit(law, stress));
 }
 
 std::optional<core::Crack> onset(const Decohesion& law, const Elastic& elastic, const core::Sym<double>& test_stress,

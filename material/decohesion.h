@@ -41,6 +41,7 @@ inline double strength_left(double q, double damage)
 double loading(const core::Crack& crack, const PlaneTraction& traction);
 
 /// Shear strength of uniaxial tension over that of shear [MPa]; 0 where the law makes no difference.
+/// @pre  tau_max is finite where tau_max_axial is given
 inline double axial_rise(const Decohesion& law)
 {
     return law.tau_max_axial ? *law.tau_max_axial - law.tau_max : 0;

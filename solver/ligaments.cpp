@@ -44,7 +44,7 @@ LigamentColumns columns_of(const Problem& problem, const Ligament& ligament)
     }
     columns.lower_u = lower[0];
     columns.lower_v = lower[1];
-    columns.lower_w = problem.grid.origin[columns.axis_w];
+    columns.origin_w = problem.grid.origin[columns.axis_w];
     columns.count_u = count[0];
     columns.count_v = count[1];
 
@@ -72,7 +72,7 @@ LigamentColumns columns_of(const Problem& problem, const Ligament& ligament)
 /// Contents of one ligament's cells at one time.
 struct Contents
 {
-    std::vector<Real> separated; // mm^3, as LigamentColumns::volume, of the particles with damage 1
+    std::vector<Real> separated; // mm^3, as LigamentColumns::cell_volume, of the particles with damage 1
     bool damaged = false;        // some particle has damage > 0
     bool any_separated = false;  // some particle has damage 1
 };
@@ -103,7 +103,7 @@ Contents contents_of(const LigamentColumns& columns, const particles::Particles&
                      const std::vector<std::uint32_t>& places)
 {
     Contents contents;
-    contents.separated.assign(columns.volume.size(), 0);
+    contents.separated.assign(columns.cell_volume.size(), 0);
     for (const std::uint32_t p : places) {
         const std::int32_t column = column_of(columns, particles, p);
         if (column < 0) continue;
@@ -116,13 +116,13 @@ Contents contents_of(const LigamentColumns& columns, const particles::Particles&
     return contents;
 }
 
-/// 1 where at least `broken_share` of the volume is separated.
-std::vector<std::uint8_t> broken(const std::vector<Real>& separated, const std::vector<Real>& volume)
+/// 1 where at least `broken_share` of the volume is separated; of columns or of cells.
+std::vector<std::uint8_t> broken_ones(const std::vector<Real>& separated, const std::vector<Real>& volume)
 {
-    std::vector<std::uint8_t> result(volume.size());
-    for (std::size_t c = 0; c < result.size(); ++c)
-        result[c] = separated[c] > 0 && separated[c] >= broken_share * volume[c];
-    return result;
+    std::vector<std::uint8_t> broken(volume.size());
+    for (std::size_t c = 0; c < broken.size(); ++c)
+        broken[c] = separated[c] > 0 && separated[c] >= broken_share * volume[c];
+    return broken;
 }
 
 /// Sums over the layers, by column.
@@ -163,7 +163,7 @@ bool joins(const LigamentColumns& columns, std::span<const std::uint8_t> broken)
 /// Whether broken cells lead from one feature to the other in enough of the layers.
 bool joins_in_layers(const LigamentColumns& columns, const Contents& contents)
 {
-    const std::vector<std::uint8_t> cells = broken(contents.separated, columns.volume);
+    const std::vector<std::uint8_t> cells = broken_ones(contents.separated, columns.cell_volume);
     const std::size_t count = columns.inside.size();
     int joined = 0;
     for (int layer = 0; layer < columns.layers; ++layer)
@@ -172,9 +172,7 @@ bool joins_in_layers(const LigamentColumns& columns, const Contents& contents)
 }
 
 /// Share of the stations with material that have a broken column.
-/// @param volume  mm^3, of the columns
-Real broken_front(const LigamentColumns& columns, const std::vector<std::uint8_t>& broken,
-                  const std::vector<Real>& volume)
+Real broken_front(const LigamentColumns& columns, const std::vector<std::uint8_t>& broken)
 {
     if (columns.station.empty()) return 0;
     const auto [first, last] = std::minmax_element(columns.station.begin(), columns.station.end());
@@ -183,7 +181,7 @@ Real broken_front(const LigamentColumns& columns, const std::vector<std::uint8_t
         std::uint8_t& value = station[static_cast<std::size_t>(columns.station[c] - *first)];
         if (broken[c])
             value = 2;
-        else if (volume[c] > 0)
+        else if (columns.volume[c] > 0)
             value = std::max<std::uint8_t>(value, 1);
     }
     const auto material = std::count_if(station.begin(), station.end(), [](std::uint8_t s) { return s > 0; });
@@ -230,16 +228,19 @@ void weigh_columns(const particles::Particles& particles, LigamentMap& map)
             lowest = std::min(lowest, across(columns, particles, p));
             highest = std::max(highest, across(columns, particles, p));
         }
+        columns.layers = 0;
         if (lowest <= highest) {
-            columns.lower_w += columns.spacing * std::floor((lowest - columns.lower_w) / columns.spacing);
-            columns.layers = static_cast<int>((highest - columns.lower_w) / columns.spacing) + 1;
+            const Real h = columns.spacing;
+            columns.lower_w = columns.origin_w + h * std::floor((lowest - columns.origin_w) / h);
+            columns.layers = static_cast<int>((highest - columns.lower_w) / h) + 1;
         }
-        columns.volume.assign(static_cast<std::size_t>(columns.layers) * columns.inside.size(), 0);
+        columns.cell_volume.assign(static_cast<std::size_t>(columns.layers) * columns.inside.size(), 0);
         for (std::size_t p = 0; p < particles.size(); ++p) {
             const std::int32_t column = column_of(columns, particles, p);
             if (column < 0) continue;
-            columns.volume[columns.cell(column, across(columns, particles, p))] += particles.rest_volume[p];
+            columns.cell_volume[columns.cell(column, across(columns, particles, p))] += particles.rest_volume[p];
         }
+        columns.volume = column_sums(columns, columns.cell_volume);
     }
 }
 
@@ -253,17 +254,16 @@ void update_ligaments(const LigamentMap& map, const particles::Particles& partic
     for (std::size_t i = 0; i < ligaments.size(); ++i) {
         const LigamentColumns& columns = map.ligaments[i];
         LigamentState& state = ligaments[i];
-        if (columns.layers == 0) continue; // no metal in the corridor
+        CLEAVE_EXPECTS(columns.volume.size() == columns.inside.size());
         const Contents contents = contents_of(columns, particles, places);
         if (!contents.damaged) continue;
         note(now, state.onset_time, state.onset_force, state.onset_cod);
         if (!contents.any_separated) continue;
-        const std::vector<Real> volume = column_sums(columns, columns.volume);
-        const std::vector<std::uint8_t> cut = broken(column_sums(columns, contents.separated), volume);
-        if (std::find(cut.begin(), cut.end(), 1) == cut.end()) continue;
+        const std::vector<std::uint8_t> broken = broken_ones(column_sums(columns, contents.separated), columns.volume);
+        if (std::find(broken.begin(), broken.end(), 1) == broken.end()) continue;
         note(now, state.first_time, state.first_force, state.first_cod);
-        state.front = broken_front(columns, cut, volume);
-        if (state.through_time < 0 && (joins(columns, cut) || joins_in_layers(columns, contents)))
+        state.front = broken_front(columns, broken);
+        if (state.through_time < 0 && (joins(columns, broken) || joins_in_layers(columns, contents)))
             note(now, state.through_time, state.through_force, state.through_cod);
     }
 }

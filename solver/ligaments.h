@@ -6,8 +6,9 @@
 /// in the same sense do so in `broken_share` of the layers across the thickness: a slanted crack leaves no column whole
 /// and breaks none.
 ///
-/// The columns of one ligament never change, only their contents: splitting and reordering of particles do not matter.
-/// Neglected: particles more than one level coarser than the finest leave gaps between their columns.
+/// The columns of one ligament never change, only their contents and the layers that hold some: splitting and
+/// reordering of particles do not matter. Neglected: particles more than one level coarser than the finest leave gaps
+/// between their columns.
 #pragma once
 
 #include "particles/particles.h"
@@ -37,17 +38,20 @@ struct LigamentColumns
     std::vector<std::uint8_t> touches_from; // likewise, 1: touches feature `from`
     std::vector<std::uint8_t> touches_to;   // likewise
     std::vector<std::int32_t> station;      // likewise, position along the line from `from` to `to`, in columns
-    Real lower_w = 0;                       // mm, of the lowest layer with particles (weigh_columns)
-    int layers = 0;           // across the thickness, one finest cell each; 0: no particles (weigh_columns)
-    std::vector<Real> volume; // mm^3, [layer * columns + column], rest volume of the cell's particles (weigh_columns)
+    Real origin_w = 0;                      // mm, of the lattice along the thickness
+    // By weigh_columns:
+    std::vector<Real> volume;      // likewise, mm^3, rest volume of its particles
+    Real lower_w = 0;              // mm, of the lowest layer with particles
+    int layers = 0;                // across the thickness, one finest cell each; 0: no particles
+    std::vector<Real> cell_volume; // mm^3, [layer * columns + column], rest volume of its particles
 
     /// Column of a rest position, -1 outside of the corridor.
     std::int32_t column(Real u, Real v) const;
-    /// Place in `volume` of a cell of the column.
+    /// Place in `cell_volume` of a cell of the column.
     std::size_t cell(std::int32_t column, Real w) const;
 };
 
-/// Geometry of every ligament of a problem, in its order; built once.
+/// Geometry of every ligament of a problem, in its order; built once, weighed whenever particles were split.
 struct LigamentMap
 {
     std::vector<LigamentColumns> ligaments;
@@ -56,7 +60,7 @@ struct LigamentMap
 /// @pre corridors are polygons of at least three corners; `from` and `to` name features of the problem
 LigamentMap ligament_map(const Problem& problem);
 
-/// Rest volume of every cell of the columns; again whenever particles were split.
+/// Rest volume of every column and of its cells; again whenever particles were split.
 void weigh_columns(const particles::Particles& particles, LigamentMap& map);
 
 /// What is written down when something happens.
@@ -71,7 +75,7 @@ struct Observation
 /// stations along the ligament that have a broken column.
 /// @param ligaments  resized to the map if empty
 /// @pre   weigh_columns
-/// @cost  a look at every particle's crack index; more only for particles with decohesion state
+/// @cost  a look at every particle's crack index; once some particle has a crack, a number per cell of every ligament
 void update_ligaments(const LigamentMap& map, const particles::Particles& particles, const Observation& now,
                       std::vector<LigamentState>& ligaments);
 

@@ -22,7 +22,7 @@ struct LawConstants
     Real hardening = 0;                                         // MPa, plastic modulus H
     Real per_overstress = 0;                                    // 1/MPa, 1 / (3 mu + H)
     Real tensile_onset = std::numeric_limits<Real>::infinity(); // MPa, s_max; infinite: no decohesion
-    Real shear_onset = std::numeric_limits<Real>::infinity();   // MPa, tau_max
+    Real shear_onset = std::numeric_limits<Real>::infinity();   // MPa, the least
     bool averaged_dilatation = true;
 };
 

@@ -23,6 +23,7 @@ transfer::LawTable laws()
     rough.decohesion = material::Decohesion{};
     rough.decohesion->s_max = 12;
     rough.decohesion->tau_max = 8;
+    rough.decohesion->tau_max_axial = 11;
     rough.decohesion->u0 = 1e-3;
     rough.decohesion->friction = 0.4;
     rough.decohesion->second_crack = true;
