@@ -260,11 +260,11 @@ void update_ligaments(const LigamentMap& map, const particles::Particles& partic
         note(now, state.onset_time, state.onset_force, state.onset_cod);
         if (!contents.any_separated) continue;
         const std::vector<std::uint8_t> broken = broken_ones(column_sums(columns, contents.separated), columns.volume);
-        if (std::find(broken.begin(), broken.end(), 1) == broken.end()) continue;
+        const bool through = state.through_time >= 0 || joins(columns, broken) || joins_in_layers(columns, contents);
+        if (!through && std::find(broken.begin(), broken.end(), 1) == broken.end()) continue;
         note(now, state.first_time, state.first_force, state.first_cod);
         state.front = broken_front(columns, broken);
-        if (state.through_time < 0 && (joins(columns, broken) || joins_in_layers(columns, contents)))
-            note(now, state.through_time, state.through_force, state.through_cod);
+        if (through) note(now, state.through_time, state.through_force, state.through_cod);
     }
 }
 

@@ -3,12 +3,13 @@
 /// A ligament's corridor is divided into columns along the thickness, one finest cell wide, on the reference lattice. A
 /// column is broken when `broken_share` of the rest volume in it belongs to separated particles. The ligament is
 /// through when broken columns that touch at least by a corner lead from one feature to the other, or when cells broken
-/// in the same sense do so in `broken_share` of the layers across the thickness: a slanted crack leaves no column whole
-/// and breaks none.
+/// in the same sense (of a cell's eight particles all) do so in `broken_share` of the layers across the thickness: a
+/// slanted crack leaves no column whole and breaks none; its first broken column is noted when it is through.
 ///
 /// The columns of one ligament never change, only their contents and the layers that hold some: splitting and
 /// reordering of particles do not matter. Neglected: particles more than one level coarser than the finest leave gaps
-/// between their columns.
+/// between their columns; every layer is looked at by itself, so cuts that take different routes in neighbouring
+/// layers, and leave metal between them that still shears, count as one.
 #pragma once
 
 #include "particles/particles.h"

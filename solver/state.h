@@ -54,7 +54,7 @@ using transfer::LeafWork;
 struct LigamentState
 {
     Real onset_time = -1, onset_force = 0, onset_cod = 0;       // first particle with damage > 0 in the corridor
-    Real first_time = -1, first_force = 0, first_cod = 0;       // first through-broken column
+    Real first_time = -1, first_force = 0, first_cod = 0;       // first through-broken column, at the latest when through
     Real through_time = -1, through_force = 0, through_cod = 0; // broken columns or layers join the features
     Real front = 0;                                             // 1, share of the ligament's columns broken
 };
@@ -62,7 +62,7 @@ struct LigamentState
 enum class EventKind : std::int32_t
 {
     onset,   // first particle with damage > 0 in the corridor
-    first,   // first through-broken column
+    first,   // first through-broken column, at the latest when through
     front,   // the crack front has passed another multiple of front_interval (solver/ligament_events.h)
     through, // broken columns join the two features
 };
