@@ -16,11 +16,6 @@ bool active(const Levels& levels, int level, const Index3& cell)
     return active_slot(levels, level, cell) >= 0;
 }
 
-Index3 parent(const Index3& cell)
-{
-    return {cell[0] >> 1, cell[1] >> 1, cell[2] >> 1};
-}
-
 /// A slave carries something only if a cell of its own level has it as a corner.
 bool is_slave(const Levels& levels, int level, const Index3& node)
 {

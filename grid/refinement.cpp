@@ -4,7 +4,6 @@
 
 #include <openvdb/openvdb.h>
 
-#include <cmath>
 #include <vector>
 
 namespace grid
@@ -31,6 +30,7 @@ Refinement::Refinement(int levels) : levels_(levels), trees_(std::make_shared<Re
 void Refinement::subdivide(int level, const Index3& cell)
 {
     CLEAVE_EXPECTS(level >= 0 && level < levels_ - 1);
+    if (trees_.use_count() > 1) trees_ = std::make_shared<RefinementTrees>(*trees_); // copies keep what they have
     openvdb::Coord c = coord(cell);
     for (int l = level; l >= 0; --l, c = openvdb::Coord(c.x() >> 1, c.y() >> 1, c.z() >> 1))
         trees_->level[static_cast<std::size_t>(l)].setValueOn(c);
@@ -57,12 +57,9 @@ void Refinement::balance()
 
 CellKey Refinement::locate(const Vec3& scaled) const
 {
-    CellKey key;
     for (int l = 0;; ++l) {
-        const Real scale = static_cast<Real>(1 << l);
-        for (int a = 0; a < 3; ++a) key.cell[a] = static_cast<int>(std::floor(scaled[a] * scale));
-        key.level = l;
-        if (l + 1 >= levels_ || !subdivided(l, key.cell)) return key;
+        const Index3 cell = cell_at(scaled, l);
+        if (l + 1 >= levels_ || !subdivided(l, cell)) return {l, cell};
     }
 }
 } // namespace grid

@@ -20,6 +20,17 @@ struct CellKey
     Index3 cell = Index3::Zero();
 };
 
+/// Cell of a level that holds the point with level-0 lattice coordinate `scaled`.
+inline Index3 cell_at(const Vec3& scaled, int level)
+{
+    return (scaled * static_cast<Real>(1 << level)).array().floor().matrix().cast<int>();
+}
+
+inline Index3 parent(const Index3& cell)
+{
+    return {cell[0] >> 1, cell[1] >> 1, cell[2] >> 1};
+}
+
 class Refinement
 {
 public:

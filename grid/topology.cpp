@@ -70,6 +70,32 @@ void mark_active_cells(const Topology& topology, Levels& levels)
         for (auto it = mask->cbeginValueOn(); it; ++it) levels.cell_active[n * leaf_cells + it.pos()] = 1;
     }
 }
+
+/// Cells of `level` that touch the cell, by a corner at least, or contain it or lie in it: the first and the last.
+std::array<Index3, 2> range_around(const CellKey& key, int level)
+{
+    std::array<Index3, 2> range;
+    for (int a = 0; a < 3; ++a) {
+        const int cell = key.cell[a], coarser = key.level - level;
+        range[0][a] = coarser > 0 ? (cell - 1) >> coarser : cell * (1 << -coarser) - 1;
+        range[1][a] = coarser > 0 ? (cell + 1) >> coarser : (cell + 1) * (1 << -coarser);
+    }
+    return range;
+}
+
+bool touches_other_level(const Levels& levels, const CellKey& key)
+{
+    for (int level = 0; level < levels.count; ++level) {
+        if (level == key.level) continue;
+        const auto [first, last] = range_around(key, level);
+        Index3 cell;
+        for (cell[0] = first[0]; cell[0] <= last[0]; ++cell[0])
+            for (cell[1] = first[1]; cell[1] <= last[1]; ++cell[1])
+                for (cell[2] = first[2]; cell[2] <= last[2]; ++cell[2])
+                    if (active_slot(levels, level, cell) >= 0) return true;
+    }
+    return false;
+}
 } // namespace
 
 std::int32_t leaf_of(const Levels& levels, int level, const Index3& node)
@@ -78,13 +104,28 @@ std::int32_t leaf_of(const Levels& levels, int level, const Index3& node)
     return leaf == nullptr ? -1 : static_cast<std::int32_t>(leaf->transientData());
 }
 
+std::int64_t slot_of(const Levels& levels, const CellKey& key)
+{
+    const std::int32_t leaf = leaf_of(levels, key.level, key.cell);
+    if (leaf < 0) return -1;
+    const Index3 local = key.cell - levels.leaves[static_cast<std::size_t>(leaf)].origin;
+    return std::int64_t{leaf} * leaf_cells + cell_index(local[0], local[1], local[2]);
+}
+
 std::int64_t active_slot(const Levels& levels, int level, const Index3& cell)
 {
-    const std::int32_t leaf = leaf_of(levels, level, cell);
-    if (leaf < 0) return -1;
-    const Index3 local = cell - levels.leaves[static_cast<std::size_t>(leaf)].origin;
-    const std::int64_t slot = std::int64_t{leaf} * leaf_cells + cell_index(local[0], local[1], local[2]);
-    return levels.cell_active[static_cast<std::size_t>(slot)] != 0 ? slot : -1;
+    const std::int64_t slot = slot_of(levels, {level, cell});
+    return slot >= 0 && levels.cell_active[static_cast<std::size_t>(slot)] != 0 ? slot : -1;
+}
+
+std::int64_t activate(const CellKey& key, Levels& levels)
+{
+    for (int corner = 0; corner < 8; ++corner)
+        if (leaf_of(levels, key.level, key.cell + Index3(corner >> 2, corner >> 1 & 1, corner & 1)) < 0) return -1;
+    if (touches_other_level(levels, key)) return -1;
+    const std::int64_t slot = slot_of(levels, key);
+    levels.cell_active[static_cast<std::size_t>(slot)] = 1;
+    return slot;
 }
 
 void build(const std::vector<CellKey>& occupied, Levels& levels)
@@ -123,10 +164,14 @@ bool before(const CellKey& a, const CellKey& b)
 
 void sort_unique(std::vector<CellKey>& cells)
 {
+    const auto keep_first = [&] {
+        cells.erase(std::unique(cells.begin(), cells.end(),
+                                [](const CellKey& a, const CellKey& b) { return !before(a, b) && !before(b, a); }),
+                    cells.end());
+    };
+    keep_first(); // particles come cell by cell: an eighth is left to sort
     std::sort(cells.begin(), cells.end(), before);
-    cells.erase(std::unique(cells.begin(), cells.end(),
-                            [](const CellKey& a, const CellKey& b) { return !before(a, b) && !before(b, a); }),
-                cells.end());
+    keep_first();
 }
 
 void restore(Levels& levels)
@@ -140,8 +185,7 @@ Refinement refinement_of_cells(const Levels& levels)
 {
     Refinement refinement(levels.count);
     for (const CellKey& key : active_cells(levels))
-        if (key.level > 0)
-            refinement.subdivide(key.level - 1, Index3(key.cell[0] >> 1, key.cell[1] >> 1, key.cell[2] >> 1));
+        if (key.level > 0) refinement.subdivide(key.level - 1, parent(key.cell));
     return refinement;
 }
 } // namespace grid

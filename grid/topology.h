@@ -25,8 +25,16 @@ Refinement refinement_of_cells(const Levels& levels);
 /// Number of the leaf whose owned nodes (and cells) include `node` on `level`, or -1.
 std::int32_t leaf_of(const Levels& levels, int level, const Index3& node);
 
-/// leaf * 512 + cell of an active leaf cell, or -1 if the cell is not active.
+/// leaf * 512 + cell of a cell, or -1 if there is no leaf around it.
+std::int64_t slot_of(const Levels& levels, const CellKey& key);
+
+/// The same of an active leaf cell, or -1 if the cell is not active.
 std::int64_t active_slot(const Levels& levels, int level, const Index3& cell);
+
+/// Make an empty leaf cell of the hierarchy active where that changes neither leaves nor interfaces: its eight nodes
+/// exist and no active cell of another level touches it. Then everything but `cell_active` stays as it is.
+/// @return leaf * 512 + cell, or -1 if only build() can do it
+std::int64_t activate(const CellKey& key, Levels& levels);
 
 /// Leaf cells of the hierarchy, in storage order.
 std::vector<CellKey> active_cells(const Levels& levels);

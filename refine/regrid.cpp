@@ -31,13 +31,6 @@ std::vector<grid::CellKey> locate_all(const grid::Levels& levels, const grid::Re
     });
     return key;
 }
-
-std::size_t slot_of(const grid::Levels& levels, const grid::CellKey& key)
-{
-    const auto leaf = static_cast<std::size_t>(grid::leaf_of(levels, key.level, key.cell));
-    const Index3 local = key.cell - levels.leaves[leaf].origin;
-    return leaf * grid::leaf_cells + static_cast<std::size_t>(grid::cell_index(local[0], local[1], local[2]));
-}
 } // namespace
 
 grid::Refinement refinement_from_targets(const grid::Levels& levels, const particles::Particles& particles)
@@ -81,7 +74,7 @@ void order(transfer::Formulation formulation, const grid::Refinement& refinement
     std::vector<std::size_t> slot(key.size());
     levels.cell_start.assign(levels.leaves.size() * grid::leaf_cells + 1, 0);
     for (std::size_t p = 0; p < key.size(); ++p) {
-        slot[p] = slot_of(levels, key[p]);
+        slot[p] = static_cast<std::size_t>(grid::slot_of(levels, key[p]));
         ++levels.cell_start[slot[p] + 1];
     }
     std::partial_sum(levels.cell_start.begin(), levels.cell_start.end(), levels.cell_start.begin());

@@ -44,7 +44,7 @@ void regrid(const Problem& problem, const Prepared& prepared, State& state, Deri
     refine::order(problem.numerics.formulation, state.strays.refinement, state.levels, state.particles);
     transfer::cover_boxes(prepared.options, state.strays.refinement, state.particles, state.levels);
     fold_work(state);
-    transfer::assign_all(state.particles, state.levels, state.strays);
+    transfer::assign_all(prepared.options, state.particles, state.levels, state.strays);
     derived.nonlocal = {};
     find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
     find_gauges(state, derived);

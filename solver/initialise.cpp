@@ -137,7 +137,7 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
         state.gauge_upper = particles_near(state.particles, problem.gauge->upper, radius);
         state.gauge_lower = particles_near(state.particles, problem.gauge->lower, radius);
     }
-    transfer::assign_all(state.particles, state.levels, state.strays);
+    transfer::assign_all(prepared.options, state.particles, state.levels, state.strays);
     find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
     find_gauges(state, derived);
     derived.ligaments = ligament_map(problem);
@@ -178,8 +178,7 @@ void resume(const Problem& problem, const Prepared& prepared, State& state, Deri
     std::vector<grid::NodeForce> force = std::move(state.levels.force);
     std::vector<grid::NodeMotion> motion = std::move(state.levels.motion);
     grid::restore(state.levels);
-    state.strays.refinement = grid::refinement_of_cells(state.levels);
-    transfer::assign_all(state.particles, state.levels, state.strays);
+    transfer::assign_all(prepared.options, state.particles, state.levels, state.strays);
     find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
     find_gauges(state, derived);
     derived.ligaments = ligament_map(problem);

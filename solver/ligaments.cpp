@@ -1,6 +1,7 @@
 #include "solver/ligaments.h"
 
 #include "core/contract.h"
+#include "core/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -221,7 +222,8 @@ LigamentMap ligament_map(const Problem& problem)
 
 void weigh_columns(const particles::Particles& particles, LigamentMap& map)
 {
-    for (LigamentColumns& columns : map.ligaments) {
+    core::parallel_for(map.ligaments.size(), [&](std::size_t i) {
+        LigamentColumns& columns = map.ligaments[i];
         Real lowest = std::numeric_limits<Real>::infinity(), highest = -lowest;
         for (std::size_t p = 0; p < particles.size(); ++p) {
             if (column_of(columns, particles, p) < 0) continue;
@@ -241,7 +243,7 @@ void weigh_columns(const particles::Particles& particles, LigamentMap& map)
             columns.cell_volume[columns.cell(column, across(columns, particles, p))] += particles.rest_volume[p];
         }
         columns.volume = column_sums(columns, columns.cell_volume);
-    }
+    });
 }
 
 void update_ligaments(const LigamentMap& map, const particles::Particles& particles, const Observation& now,

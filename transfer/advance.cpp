@@ -97,7 +97,7 @@ void advance_and_scatter(const PassOptions& options, const LawTable& laws, Stray
         advance_boxes(options, laws, strays, particles, levels, outcome);
         add_work(outcome, leaf_work);
         record_onsets(outcome, particles);
-        assign(all_away(outcome, strays), particles, levels, strays);
+        assign(options, all_away(outcome, strays), particles, levels, strays);
         return finish_boxes(options, laws, outcome, strays, particles, levels);
     }
     // Strays first: they still need the motion tiles, and a leaf's scatter must see only particles at home.
@@ -114,7 +114,7 @@ void advance_and_scatter(const PassOptions& options, const LawTable& laws, Stray
         core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
             if (!outcome[n].onset.empty()) scatter_leaf(options, laws, particles, n, levels);
         });
-        assign(all_away(outcome, strays), particles, levels, strays);
+        assign(options, all_away(outcome, strays), particles, levels, strays);
         scatter_strays(options, laws, strays, particles, levels);
         scatter_stray_affine(options, strays, particles, levels);
     }

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "grid/topology.h"
+#include "transfer/passes.h"
 #include "transfer/scaled_position.h"
 
 #include <algorithm>
@@ -27,6 +28,18 @@ Vec3 finite_position(const particles::Particles& particles, const grid::Levels& 
                                    " has no finite position: the computation is unstable (smaller numerics.cfl?)");
     return x;
 }
+
+/// Make the empty cell around a point active, at level `target` if that is finer than the leaf cell `key` found there.
+/// @return its slot, or -1
+std::int64_t opened(const Vec3& scaled, grid::CellKey key, int target, grid::Refinement& refinement,
+                    grid::Levels& levels)
+{
+    const bool finer = key.level < target;
+    if (finer) key = {target, grid::cell_at(scaled, target)};
+    const std::int64_t slot = grid::activate(key, levels);
+    if (slot >= 0 && finer) refinement.subdivide(target - 1, grid::parent(key.cell));
+    return slot;
+}
 } // namespace
 
 bool worth_reordering(const Strays& strays, const particles::Particles& particles)
@@ -34,23 +47,23 @@ bool worth_reordering(const Strays& strays, const particles::Particles& particle
     return strays.outside || static_cast<Real>(strays.size()) > reorder_share * static_cast<Real>(particles.size());
 }
 
-void assign(const std::vector<std::uint32_t>& away, const particles::Particles& particles, const grid::Levels& levels,
-            Strays& strays)
+void assign(const PassOptions& options, const std::vector<std::uint32_t>& away, const particles::Particles& particles,
+            grid::Levels& levels, Strays& strays)
 {
     std::vector<Placed> placed;
     strays.outside = false;
     for (const std::uint32_t p : away) {
-        const grid::CellKey key = strays.refinement.locate(finite_position(particles, levels, p));
-        const std::int32_t leaf = grid::leaf_of(levels, key.level, key.cell);
-        if (leaf < 0) {
+        const Vec3 x = finite_position(particles, levels, p);
+        const grid::CellKey key = strays.refinement.locate(x);
+        std::int64_t slot = grid::active_slot(levels, key.level, key.cell);
+        if (slot < 0 && !uses_boxes(options))
+            slot = opened(x, key, particles.target_level[p], strays.refinement, levels);
+        if (slot < 0) {
             strays.outside = true; // not placed: the caller reorders before anything reads the list
             continue;
         }
-        const Index3 local = key.cell - levels.leaves[static_cast<std::size_t>(leaf)].origin;
-        const std::int32_t cell = grid::cell_index(local[0], local[1], local[2]);
-        const std::size_t slot = static_cast<std::size_t>(leaf) * grid::leaf_cells + static_cast<std::size_t>(cell);
-        if (levels.cell_active[slot] == 0) strays.outside = true;
-        placed.push_back({leaf, cell, p});
+        placed.push_back({static_cast<std::int32_t>(slot / grid::leaf_cells),
+                          static_cast<std::int32_t>(slot % grid::leaf_cells), p});
     }
     std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
         return a.leaf != b.leaf ? a.leaf < b.leaf : a.particle < b.particle;
@@ -68,11 +81,12 @@ void assign(const std::vector<std::uint32_t>& away, const particles::Particles& 
     strays.run.push_back(static_cast<std::uint32_t>(placed.size()));
 }
 
-void assign_all(const particles::Particles& particles, const grid::Levels& levels, Strays& strays)
+void assign_all(const PassOptions& options, const particles::Particles& particles, grid::Levels& levels, Strays& strays)
 {
+    strays.refinement = grid::refinement_of_cells(levels);
     std::vector<std::uint32_t> away;
     for (std::uint32_t p = 0; p < particles.away.size(); ++p)
         if (particles.away[p] != 0) away.push_back(p);
-    assign(away, particles, levels, strays);
+    assign(options, away, particles, levels, strays);
 }
 } // namespace transfer

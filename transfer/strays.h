@@ -15,14 +15,16 @@
 
 namespace transfer
 {
+struct PassOptions; // transfer/passes.h
+
 struct Strays
 {
     std::vector<std::uint32_t> particle; // sorted by (leaf, particle)
     std::vector<std::int32_t> leaf;      // [s] leaf the particle is in now
     std::vector<std::int32_t> cell;      // [s] cell of that leaf
     std::vector<std::uint32_t> run;      // starts of equal-leaf runs, + 1 entry
-    bool outside = false;                // one of them is in a cell that does not exist yet: reorder before use
-    grid::Refinement refinement{1};      // where the leaf cells are
+    bool outside = false;                // one of them is where no cell can be made active: reorder before use
+    grid::Refinement refinement{1};      // where the leaf cells are: ancestors of active cells
     Boxes boxes;                         // basis gimp; positions of the last scatter
 
     std::size_t size() const { return particle.size(); }
@@ -33,11 +35,14 @@ inline constexpr Real reorder_share = 0.02;
 
 bool worth_reordering(const Strays& strays, const particles::Particles& particles);
 
-/// Find leaf and cell of the particles in `away` (unsorted, no repeats).
-/// Throws core::NumericalError naming the particle if a position is not finite.
-void assign(const std::vector<std::uint32_t>& away, const particles::Particles& particles, const grid::Levels& levels,
-            Strays& strays);
+/// Find leaf and cell of the particles in `away` (unsorted, no repeats). Points that enter an empty cell, as fine as
+/// their target asks for, make it active where that is easy (grid::activate): a body that moves does so at every other
+/// step. Throws core::NumericalError naming the particle if a position is not finite.
+void assign(const PassOptions& options, const std::vector<std::uint32_t>& away, const particles::Particles& particles,
+            grid::Levels& levels, Strays& strays);
 
-/// The same for every particle marked away: after a restart.
-void assign_all(const particles::Particles& particles, const grid::Levels& levels, Strays& strays);
+/// The same for every particle marked away, in the hierarchy of the active cells alone, so that a restart finds the
+/// same cells: after an ordering or a restart.
+void assign_all(const PassOptions& options, const particles::Particles& particles, grid::Levels& levels,
+                Strays& strays);
 } // namespace transfer

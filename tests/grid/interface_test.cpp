@@ -27,6 +27,34 @@ const grid::NodeSum& sum_at(const grid::Levels& levels, const grid::NodeAddress&
 {
     return levels.sums(static_cast<std::size_t>(at.leaf))[at.node];
 }
+
+/// Leaves, active cells, slaves and masters of two grids agree.
+void expect_same_grid(const grid::Levels& a, const grid::Levels& b)
+{
+    ASSERT_EQ(a.leaves.size(), b.leaves.size());
+    for (std::size_t n = 0; n < b.leaves.size(); ++n) {
+        EXPECT_EQ(a.leaves[n].origin, b.leaves[n].origin);
+        EXPECT_EQ(a.leaves[n].neighbour, b.leaves[n].neighbour);
+    }
+    EXPECT_EQ(a.cell_active, b.cell_active);
+    EXPECT_EQ(a.constrained, b.constrained);
+    const auto same = [](const grid::NodeAddress& a, const grid::NodeAddress& b) {
+        return a.leaf == b.leaf && a.node == b.node;
+    };
+    for (std::size_t l = 0; l < b.interface.size(); ++l) {
+        const grid::LevelInterface &f = a.interface[l], &g = b.interface[l];
+        EXPECT_TRUE(std::equal(f.slave.begin(), f.slave.end(), g.slave.begin(), g.slave.end(), same));
+        EXPECT_TRUE(
+            std::equal(f.row_master.begin(), f.row_master.end(), g.row_master.begin(), g.row_master.end(), same));
+        EXPECT_EQ(f.row_weight, g.row_weight);
+        EXPECT_EQ(f.column_slave, g.column_slave);
+        EXPECT_EQ(f.column_weight, g.column_weight);
+        EXPECT_EQ(f.column_offset, g.column_offset);
+        EXPECT_EQ(f.hanging.slot, g.hanging.slot);
+        EXPECT_EQ(f.hanging.slave, g.hanging.slave);
+        EXPECT_EQ(f.hanging.around, g.hanging.around);
+    }
+}
 } // namespace
 
 TEST(Interface, slaves_are_the_fine_corners_that_touch_a_coarser_cell)
@@ -232,28 +260,7 @@ TEST(Interface, a_restart_rebuilds_the_same_leaves_and_rows)
         // As after reading a file: the mask trees are gone.
         grid::restore(restored);
         ASSERT_EQ(restored.leaves.size(), built.leaves.size()) << topology;
-        for (std::size_t n = 0; n < built.leaves.size(); ++n) {
-            EXPECT_EQ(restored.leaves[n].origin, built.leaves[n].origin);
-            EXPECT_EQ(restored.leaves[n].neighbour, built.leaves[n].neighbour);
-        }
-        EXPECT_EQ(restored.cell_active, built.cell_active);
-        EXPECT_EQ(restored.constrained, built.constrained);
-        const auto same = [](const grid::NodeAddress& a, const grid::NodeAddress& b) {
-            return a.leaf == b.leaf && a.node == b.node;
-        };
-        for (std::size_t l = 0; l < built.interface.size(); ++l) {
-            const grid::LevelInterface &a = built.interface[l], &b = restored.interface[l];
-            EXPECT_TRUE(std::equal(a.slave.begin(), a.slave.end(), b.slave.begin(), b.slave.end(), same));
-            EXPECT_TRUE(
-                std::equal(a.row_master.begin(), a.row_master.end(), b.row_master.begin(), b.row_master.end(), same));
-            EXPECT_EQ(a.row_weight, b.row_weight);
-            EXPECT_EQ(a.column_slave, b.column_slave);
-            EXPECT_EQ(a.column_weight, b.column_weight);
-            EXPECT_EQ(a.column_offset, b.column_offset);
-            EXPECT_EQ(a.hanging.slot, b.hanging.slot);
-            EXPECT_EQ(a.hanging.slave, b.hanging.slave);
-            EXPECT_EQ(a.hanging.around, b.hanging.around);
-        }
+        expect_same_grid(restored, built);
         const grid::Refinement refinement = grid::refinement_of_cells(restored);
         for (const grid::CellKey& key : topology.cells) {
             const Real h = 1 / static_cast<Real>(1 << key.level);
@@ -261,5 +268,26 @@ TEST(Interface, a_restart_rebuilds_the_same_leaves_and_rows)
             EXPECT_EQ(found.level, key.level) << topology;
             EXPECT_EQ(found.cell, key.cell) << topology;
         }
+    }
+}
+
+TEST(Interface, a_cell_made_active_leaves_the_grid_that_would_be_built_with_it)
+{
+    for (const support::Topology& topology : support::topologies()) {
+        support::Random random(11);
+        std::vector<grid::CellKey> kept, dropped;
+        for (const grid::CellKey& key : topology.cells) (random.between(0, 1) < 0.8 ? kept : dropped).push_back(key);
+        grid::Levels levels = support::levels_of({topology.name, topology.refinement, kept});
+        std::size_t made = 0;
+        for (const grid::CellKey& key : dropped) {
+            if (grid::activate(key, levels) < 0) continue;
+            ++made;
+            kept.push_back(key);
+            expect_same_grid(levels, support::levels_of({topology.name, topology.refinement, kept}));
+            ASSERT_FALSE(HasFailure()) << topology << ", cell " << key.cell.transpose() << " of level " << key.level;
+        }
+        EXPECT_GT(made, 0U) << topology;
+        const grid::CellKey beyond{0, Index3(40, 0, 0)}; // no leaf there
+        EXPECT_LT(grid::activate(beyond, levels), 0);
     }
 }

@@ -89,6 +89,15 @@ TEST(Refinement, a_point_on_a_lower_face_belongs_to_the_cell_above)
     EXPECT_EQ(refinement.locate(Vec3(0, -1, -1)).level, 0);
 }
 
+TEST(Refinement, a_copy_does_not_see_what_is_subdivided_afterwards)
+{
+    grid::Refinement refinement(2);
+    const grid::Refinement copy = refinement;
+    refinement.subdivide(0, Index3(1, 2, 3));
+    EXPECT_TRUE(refinement.subdivided(0, Index3(1, 2, 3)));
+    EXPECT_FALSE(copy.subdivided(0, Index3(1, 2, 3)));
+}
+
 TEST(Refinement, subdividing_a_fine_cell_subdivides_what_contains_it)
 {
     grid::Refinement refinement(3);

@@ -126,7 +126,7 @@ void disturb(std::uint64_t seed, Scene& scene)
     }
     transfer::cover_boxes(scene.options, scene.refinement, p, scene.levels);
     scene.leaf_work.assign(scene.levels.leaves.size(), {});
-    transfer::assign_all(p, scene.levels, scene.strays);
+    transfer::assign_all(scene.options, p, scene.levels, scene.strays);
     if (transfer::uses_boxes(scene.options)) // new cells, new visitors
         transfer::scatter(scene.options, scene.laws, scene.strays, scene.particles, scene.levels);
 }
@@ -159,7 +159,7 @@ void order(Scene& scene)
     std::fill(scene.particles.away.begin(), scene.particles.away.end(), std::uint8_t(0));
     transfer::cover_boxes(scene.options, scene.refinement, scene.particles, scene.levels);
     scene.strays.refinement = scene.refinement;
-    transfer::assign_all(scene.particles, scene.levels, scene.strays);
+    transfer::assign_all(scene.options, scene.particles, scene.levels, scene.strays);
     scene.leaf_work.assign(scene.levels.leaves.size(), {});
     transfer::scatter(scene.options, scene.laws, scene.strays, scene.particles, scene.levels);
 }
