@@ -58,6 +58,12 @@ Real travel(const solver::Problem& problem)
     if (speed == 0) return 0;
     return std::min(speed * problem.end.time, problem.end.cod);
 }
+
+/// Whether a strength of the law is ever reached.
+bool breaks(const material::Decohesion& law)
+{
+    return std::isfinite(law.s_max) || std::isfinite(law.tau_max);
+}
 } // namespace
 
 SceneFeatures scene_features(const solver::Problem& problem)
@@ -69,7 +75,7 @@ SceneFeatures scene_features(const solver::Problem& problem)
                             (std::isfinite(side) && travel(problem) > side);
     for (const material::Material& m : problem.materials) {
         features.plastic = features.plastic || m.plastic.has_value();
-        features.crack = features.crack || m.decohesion.has_value();
+        features.crack = features.crack || (m.decohesion && breaks(*m.decohesion));
     }
     features.localised = !problem.zones.empty() || std::isfinite(hole);
     features.length = std::isfinite(hole) ? hole : std::isfinite(side) ? side : problem.grid.cell;

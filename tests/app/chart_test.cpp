@@ -4,6 +4,7 @@
 #include "app/chart_page.h"
 #include "app/chart_summary.h"
 #include "app/leave_one_out.h"
+#include "app/scene_features.h"
 #include "tests/support/folder.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 namespace
 {
@@ -120,6 +122,17 @@ std::vector<const ChartRow*> pointers(const std::vector<ChartRow>& rows)
     std::vector<const ChartRow*> all;
     for (const ChartRow& r : rows) all.push_back(&r);
     return all;
+}
+
+TEST(SceneFeatures, a_crack_model_without_strength_is_none)
+{
+    solver::Problem problem;
+    problem.materials.emplace_back().decohesion.emplace();
+    material::Decohesion& law = *problem.materials[0].decohesion;
+    law.s_max = law.tau_max = std::numeric_limits<Real>::infinity();
+    EXPECT_FALSE(app::scene_features(problem).crack);
+    law.tau_max = 820;
+    EXPECT_TRUE(app::scene_features(problem).crack);
 }
 
 TEST(Advise, evidence_is_the_coarsest_measured_cell_from_which_on_all_met)

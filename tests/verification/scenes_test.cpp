@@ -164,6 +164,18 @@ TEST(Scenes, c22_compact_tension_breaks_at_the_force_of_its_fracture_energy)
     EXPECT_NEAR(results.at("energy_per_area") / 0.5, 1, 0.05);
 }
 
+/// Cells of half the size along the ligaments bring the force of the flowing specimen to its limit of fine cells.
+TEST(Scenes, c28_challenge_specimen_needs_small_cells_in_its_ligaments_only)
+{
+    const char* file = "verification/c28-challenge/case.toml";
+    const auto error = [](const support::Results& results) { return results.at("force_N") / 7514 - 1; };
+    const Real two = error(support::results_of(file, {}));
+    const Real coarse = error(support::results_of(file, {"grid.levels=1", "refine.zone=[]"}));
+    EXPECT_GT(two, 0);
+    EXPECT_LT(two, 0.02);
+    EXPECT_GT(coarse, 5 * two);
+}
+
 /// Published simulations find 60 to 70 degrees, Kalthoff measured 70.
 TEST(Scenes, c23_impact_drives_the_crack_out_of_the_notch_at_an_angle)
 {
