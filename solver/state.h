@@ -53,8 +53,8 @@ using transfer::LeafWork;
 /// What happened on one ligament (same order as Problem::ligaments); negative time: not yet.
 struct LigamentState
 {
-    Real onset_time = -1, onset_force = 0, onset_cod = 0;       // first particle with damage > 0 in the corridor
-    Real first_time = -1, first_force = 0, first_cod = 0;       // first through-broken column, at the latest when through
+    Real onset_time = -1, onset_force = 0, onset_cod = 0; // first particle with damage > 0 in the corridor
+    Real first_time = -1, first_force = 0, first_cod = 0; // first through-broken column, at the latest when through
     Real through_time = -1, through_force = 0, through_cod = 0; // broken columns or layers join the features
     Real front = 0;                                             // 1, share of the ligament's columns broken
 };

@@ -87,6 +87,7 @@ VARIANTS = {
     "objective-D+0.05": Variant("objective", OBJECTIVE, "hole D higher by 0.05 mm", [D_AT.format(4.03)]),
     "objective-slow": Variant("objective", OBJECTIVE, "pins part at 2.5 m/s", speed(1.25, 3.2)),
     "objective-fast": Variant("objective", OBJECTIVE, "pins part at 10 m/s", speed(5, 0.9)),
+    "objective-edges": Variant("objective", OBJECTIVE, "cut cells by distances to the surface (thickness exact)", ['grid.edge="distance"']),
     "slice": Variant("slice", "snl/slice.toml", "cells of 0.25 mm"),
     "slice-fine": Variant("slice", "snl/slice.toml", "cells of 0.125 mm", ["grid.cell=0.25"]),
     "fine-mixed": Variant("fine", FINE, "paper, mixed mode, three levels"),
