@@ -96,7 +96,8 @@ std::optional<Real> two_level_factor(const std::vector<ChartRow>& scene, bool& b
         if (!done(nested) || nested.levels < 2) continue;
         std::vector<const ChartRow*> uniform;
         for (const ChartRow& other : scene)
-            if (done(other) && other.levels == 1 && same_method(other, nested)) uniform.push_back(&other);
+            if (done(other) && other.levels == 1 && other.scheme == nested.scheme && same_method(other, nested))
+                uniform.push_back(&other);
         const std::vector<const ChartRow*> front = front_of(uniform);
         if (const std::optional<Real> cost = cost_at(front, nested.error)) {
             logs += std::log(*cost / nested.cpu_s);

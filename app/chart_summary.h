@@ -33,7 +33,8 @@ std::optional<Real> fitted_order(const std::vector<Real>& h, const std::vector<R
 bool same_method(const io::ChartRow& a, const io::ChartRow& b);
 
 /// Factor of processor time by which several levels beat one at equal error, geometric mean over the several-level rows
-/// of the methods that were run both ways; one level's cost at an error between two of its front points by log-log
-/// interpolation. Nothing where the ranges do not meet; `beyond` is set when several levels went further down.
+/// of the schemes (method and other settings) that were run both ways; one level's cost at an error between two of its
+/// front points by log-log interpolation. Nothing where the ranges do not meet; `beyond` is set when several levels
+/// went further down.
 std::optional<Real> two_level_factor(const std::vector<io::ChartRow>& scene, bool& beyond);
 } // namespace app

@@ -17,7 +17,7 @@ void gather_from_lower(Levels& levels, const Add& add)
             const std::int32_t lower = neighbour(levels.leaves[n], axes, -1);
             if (lower < 0) continue;
             const NodeSum* other = levels.sums(static_cast<std::size_t>(lower));
-            for_shared_nodes(axes, whole_tile, [&](int mine, int halo) { add(own[mine], other[halo]); });
+            for_shared_nodes(axes, levels.used[n], [&](int mine, int halo) { add(own[mine], other[halo]); });
         }
     });
 }
@@ -47,12 +47,11 @@ void fill_motion_halos(Levels& levels, int first_level)
     core::parallel_for(levels.leaves.size() - first, [&](std::size_t task) {
         const std::size_t n = first + task;
         NodeMotion* own = levels.motions(n);
-        const NodeBox& box = levels.used.empty() ? whole_tile : levels.used[n];
         for (int axes = 1; axes < 8; ++axes) {
             const std::int32_t upper = neighbour(levels.leaves[n], axes, 1);
             if (upper < 0) continue;
             const NodeMotion* other = levels.motions(static_cast<std::size_t>(upper));
-            for_shared_nodes(axes, box, [&](int theirs, int halo) { own[halo] = other[theirs]; });
+            for_shared_nodes(axes, levels.used[n], [&](int theirs, int halo) { own[halo] = other[theirs]; });
         }
     });
 }

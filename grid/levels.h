@@ -149,7 +149,7 @@ struct Levels
     std::vector<NodeSum> sum;              // [leaf][729]
     std::vector<NodeMotion> motion;        // [leaf][729]
     std::vector<NodeForce> force;          // [leaf][729] nodal scheme, instead of `sum`
-    std::vector<NodeBox> used;             // [leaf] nodal scheme: corners of occupied cells and owned nodes that move
+    std::vector<NodeBox> used;             // [leaf] holds all corners of active cells: no other node has mass
     std::vector<std::uint8_t> constrained; // [leaf][729] 1: owned node is a slave of the coarser level
     std::vector<LevelInterface> interface; // [count - 1] between level l and l + 1
 

@@ -14,7 +14,7 @@ void advance_momentum(const std::vector<WallPlane>& walls, const Vec3& gravity, 
         const Real cutoff = mass_cutoff[static_cast<std::size_t>(leaf.level)];
         const NodeSum* sum = levels.sums(n);
         NodeMotion* motion = levels.motions(n);
-        for_owned_nodes([&](int i) {
+        for_nodes(levels.used[n], leaf_side - 1, [&](int i) {
             const NodeSum& s = sum[i];
             NodeMotion& m = motion[i];
             const Real per_mass = s.mass > cutoff ? Real(1) / s.mass : Real(0);
@@ -37,7 +37,7 @@ void remap_velocity(const std::vector<WallPlane>& walls, const std::vector<Real>
         const Real cutoff = mass_cutoff[static_cast<std::size_t>(leaf.level)];
         const NodeSum* sum = levels.sums(n);
         NodeMotion* motion = levels.motions(n);
-        for_owned_nodes([&](int i) {
+        for_nodes(levels.used[n], leaf_side - 1, [&](int i) {
             const Real per_mass = sum[i].mass > cutoff ? Real(1) / sum[i].mass : Real(0);
             for (std::size_t a = 0; a < 3; ++a) motion[i].change[a] = sum[i].momentum[a] * per_mass;
         });

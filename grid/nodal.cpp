@@ -26,40 +26,11 @@ void set_masses(const std::vector<Real>& mass_cutoff, Levels& levels)
     });
 }
 
-void include(int i, int j, int k, NodeBox& box)
-{
-    const int node[3] = {i, j, k};
-    for (std::size_t a = 0; a < 3; ++a) {
-        box.lower[a] = std::min(box.lower[a], static_cast<std::int8_t>(node[a]));
-        box.upper[a] = std::max(box.upper[a], static_cast<std::int8_t>(node[a]));
-    }
-}
-
-/// Corners of occupied cells, and owned nodes that move or are slaves: nothing else in a tile is ever read or written.
-void find_used_nodes(Levels& levels)
-{
-    levels.used.assign(levels.leaves.size(), {});
-    core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
-        const std::uint32_t* start = levels.cell_start.data() + n * leaf_cells;
-        for (int cell = 0; cell < leaf_cells; ++cell) {
-            const int i = cell >> 6, j = cell >> 3 & 7, k = cell & 7;
-            if (start[cell] != start[cell + 1]) {
-                include(i, j, k, levels.used[n]);
-                include(i + 1, j + 1, k + 1, levels.used[n]);
-            }
-            const int node = tile_index(i, j, k);
-            const bool slave = levels.constrained[n * tile_nodes + static_cast<std::size_t>(node)] != 0;
-            if (slave || levels.forces(n)[node].per_mass > 0) include(i, j, k, levels.used[n]);
-        }
-    });
-}
-
 void assemble_masses(const std::vector<Real>& mass_cutoff, Levels& levels)
 {
     assemble_sums(levels);
     restrict_sums(levels);
     set_masses(mass_cutoff, levels);
-    find_used_nodes(levels);
 }
 
 void add_lower_halos(std::size_t leaf, Levels& levels)

@@ -4,6 +4,7 @@
 
 #include "core/huge_pages.h"
 #include "grid/interface.h"
+#include "grid/shared_nodes.h"
 
 #include <algorithm>
 #include <openvdb/openvdb.h>
@@ -71,6 +72,33 @@ void mark_active_cells(const Topology& topology, Levels& levels)
     }
 }
 
+/// Add the corners of a leaf's cell to its box, and those that upper neighbours own to theirs.
+void use_corners(std::size_t leaf, int cell, Levels& levels)
+{
+    const std::array<int, 3> local{cell >> 6, cell >> 3 & 7, cell & 7};
+    for (int axes = 0; axes < 8; ++axes) { // bit a set: beyond the leaf along axis a
+        bool here = true;
+        for (int a = 0; a < 3; ++a)
+            here = here && ((axes >> a & 1) == 0 || local[static_cast<std::size_t>(a)] + 1 == leaf_side);
+        const std::int32_t owner = here ? neighbour(levels.leaves[leaf], axes, 1) : -1;
+        if (owner < 0) continue;
+        NodeBox& box = levels.used[static_cast<std::size_t>(owner)];
+        for (std::size_t a = 0; a < 3; ++a) {
+            const bool beyond = (axes >> a & 1) != 0;
+            box.lower[a] = std::min(box.lower[a], static_cast<std::int8_t>(beyond ? 0 : local[a]));
+            box.upper[a] = std::max(box.upper[a], static_cast<std::int8_t>(beyond ? 0 : local[a] + 1));
+        }
+    }
+}
+
+void find_used_nodes(Levels& levels)
+{
+    levels.used.assign(levels.leaves.size(), {});
+    for (std::size_t n = 0; n < levels.leaves.size(); ++n)
+        for (int c = 0; c < leaf_cells; ++c)
+            if (levels.cell_active[n * leaf_cells + static_cast<std::size_t>(c)] != 0) use_corners(n, c, levels);
+}
+
 /// Cells of `level` that touch the cell, by a corner at least, or contain it or lie in it: the first and the last.
 std::array<Index3, 2> range_around(const CellKey& key, int level)
 {
@@ -125,6 +153,7 @@ std::int64_t activate(const CellKey& key, Levels& levels)
     if (touches_other_level(levels, key)) return -1;
     const std::int64_t slot = slot_of(levels, key);
     levels.cell_active[static_cast<std::size_t>(slot)] = 1;
+    use_corners(static_cast<std::size_t>(slot / leaf_cells), static_cast<int>(slot % leaf_cells), levels);
     return slot;
 }
 
@@ -144,6 +173,7 @@ void build(const std::vector<CellKey>& occupied, Levels& levels)
     find_neighbours(levels);
     allocate_tiles(levels);
     mark_active_cells(*topology, levels);
+    find_used_nodes(levels);
     build_interfaces(levels);
 }
 

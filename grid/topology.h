@@ -11,7 +11,8 @@ namespace grid
 /// Make `levels` hold exactly the leaves whose nodes the occupied cells touch.
 ///
 /// @param occupied  leaf cells of the hierarchy that hold particles, any order, repeats allowed
-/// @param levels    reads spacing0, count, origin; writes leaves, level_start, cell_active, topology, sum, motion,
+/// @param levels    reads spacing0, count, origin; writes leaves, level_start, cell_active, used, topology, sum,
+/// motion,
 ///                  constrained, interface. cell_start is left empty: only who orders the particles knows it.
 /// @cost  serial in the number of cells; called when the topology changes, never per step
 void build(const std::vector<CellKey>& occupied, Levels& levels);
@@ -32,7 +33,7 @@ std::int64_t slot_of(const Levels& levels, const CellKey& key);
 std::int64_t active_slot(const Levels& levels, int level, const Index3& cell);
 
 /// Make an empty leaf cell of the hierarchy active where that changes neither leaves nor interfaces: its eight nodes
-/// exist and no active cell of another level touches it. Then everything but `cell_active` stays as it is.
+/// exist and no active cell of another level touches it. Then everything but `cell_active` and `used` stays as it is.
 /// @return leaf * 512 + cell, or -1 if only build() can do it
 std::int64_t activate(const CellKey& key, Levels& levels);
 

@@ -43,6 +43,7 @@ void for_nodes(const NodeBox& box, int last, const Visit& visit)
             for (int k = box.lower[2]; k <= end(2); ++k) visit(tile_index(i, j, k));
 }
 
+/// Every node a leaf owns.
 template <class Visit>
 void for_owned_nodes(const Visit& visit)
 {

@@ -1,4 +1,5 @@
 #include "core/parallel.h"
+#include "grid/walls.h"
 #include "transfer/gimp_passes.h"
 #include "transfer/interface_affine.h"
 #include "transfer/passes.h"
@@ -96,7 +97,7 @@ void remap_momentum(const PassOptions& options, Strays& strays, particles::Parti
     with_scheme(options, [&]<Formulation F, Transfer T>() {
         core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
             grid::NodeSum* tile = levels.sums(n);
-            for (int i = 0; i < grid::tile_nodes; ++i) tile[i].momentum = {};
+            grid::for_nodes(levels.used[n], grid::leaf_side, [&](int node) { tile[node].momentum = {}; });
             const std::uint32_t* start = levels.cell_start.data() + n * grid::leaf_cells;
             const LeafFrame frame = leaf_frame(levels, n);
             const HangingRange hanging = hanging_for<T>(levels, n);

@@ -1,16 +1,15 @@
 #include "transfer/scatter_leaf.h"
 
 #include "core/parallel.h"
+#include "grid/walls.h"
 #include "transfer/scatter_cell.h"
-
-#include <algorithm>
 
 namespace transfer
 {
 void clear_sums(std::size_t leaf, grid::Levels& levels)
 {
     grid::NodeSum* tile = levels.sums(leaf);
-    std::fill(tile, tile + grid::tile_nodes, grid::NodeSum{});
+    grid::for_nodes(levels.used[leaf], grid::leaf_side, [&](int node) { tile[node] = {}; });
 }
 
 template <Formulation F, Transfer T>

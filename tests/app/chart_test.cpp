@@ -88,6 +88,9 @@ TEST(ChartSummary, several_levels_against_one_at_equal_error)
     rows[2].error = 0.03;
     rows[2].transfer = "flip"; // another method: not to be compared
     EXPECT_FALSE(app::two_level_factor(rows, beyond));
+    rows[2].transfer = rows[0].transfer;
+    rows[2].scheme = "dilatation at the points"; // nor another law
+    EXPECT_FALSE(app::two_level_factor(rows, beyond));
 }
 
 TEST(ChartSummary, counts_crosses_apart_from_what_does_not_apply)
