@@ -30,10 +30,16 @@ Refinement::Refinement(int levels) : levels_(levels), trees_(std::make_shared<Re
 void Refinement::subdivide(int level, const Index3& cell)
 {
     CLEAVE_EXPECTS(level >= 0 && level < levels_ - 1);
-    if (trees_.use_count() > 1) trees_ = std::make_shared<RefinementTrees>(*trees_); // copies keep what they have
+    RefinementTrees& trees = own();
     openvdb::Coord c = coord(cell);
     for (int l = level; l >= 0; --l, c = openvdb::Coord(c.x() >> 1, c.y() >> 1, c.z() >> 1))
-        trees_->level[static_cast<std::size_t>(l)].setValueOn(c);
+        trees.level[static_cast<std::size_t>(l)].setValueOn(c);
+}
+
+RefinementTrees& Refinement::own()
+{
+    if (trees_.use_count() > 1) trees_ = std::make_shared<RefinementTrees>(*trees_);
+    return *trees_;
 }
 
 bool Refinement::subdivided(int level, const Index3& cell) const
@@ -43,9 +49,10 @@ bool Refinement::subdivided(int level, const Index3& cell) const
 
 void Refinement::balance()
 {
+    RefinementTrees& trees = own();
     for (int l = levels_ - 2; l >= 1; --l) {
-        openvdb::MaskTree& coarser = trees_->level[static_cast<std::size_t>(l - 1)];
-        for (auto it = trees_->level[static_cast<std::size_t>(l)].cbeginValueOn(); it; ++it) {
+        openvdb::MaskTree& coarser = trees.level[static_cast<std::size_t>(l - 1)];
+        for (auto it = trees.level[static_cast<std::size_t>(l)].cbeginValueOn(); it; ++it) {
             const openvdb::Coord c = it.getCoord();
             for (int a = -1; a <= 1; ++a)
                 for (int b = -1; b <= 1; ++b)

@@ -48,6 +48,9 @@ public:
     CellKey locate(const Vec3& scaled) const;
 
 private:
+    /// The trees, as the only one who holds them: a copy keeps what it has.
+    RefinementTrees& own();
+
     int levels_;
     std::shared_ptr<RefinementTrees> trees_;
 };

@@ -12,8 +12,7 @@ namespace grid
 ///
 /// @param occupied  leaf cells of the hierarchy that hold particles, any order, repeats allowed
 /// @param levels    reads spacing0, count, origin; writes leaves, level_start, cell_active, used, topology, sum,
-/// motion,
-///                  constrained, interface. cell_start is left empty: only who orders the particles knows it.
+///                  motion, constrained, interface. cell_start is left empty: only who orders the particles knows it.
 /// @cost  serial in the number of cells; called when the topology changes, never per step
 void build(const std::vector<CellKey>& occupied, Levels& levels);
 

@@ -27,11 +27,8 @@ void populate(const geometry::Shape& shape, const particles::SeedTraits& traits,
               const grid::Refinement& refinement, int per_axis, particles::Particles& particles)
 {
     const geometry::Bounds bounds = shape.bounds();
-    Index3 lower, upper;
-    for (int a = 0; a < 3; ++a) {
-        lower[a] = static_cast<int>(std::floor((bounds.lower[a] - lattice.origin[a]) / lattice.spacing0));
-        upper[a] = static_cast<int>(std::floor((bounds.upper[a] - lattice.origin[a]) / lattice.spacing0));
-    }
+    const Index3 lower = grid::cell_at((bounds.lower - lattice.origin) / lattice.spacing0, 0);
+    const Index3 upper = grid::cell_at((bounds.upper - lattice.origin) / lattice.spacing0, 0);
     for (int i = lower[0]; i <= upper[0]; ++i)
         for (int j = lower[1]; j <= upper[1]; ++j)
             for (int k = lower[2]; k <= upper[2]; ++k)

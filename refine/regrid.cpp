@@ -39,10 +39,8 @@ grid::Refinement refinement_from_targets(const grid::Levels& levels, const parti
     for (std::size_t p = 0; p < particles.size(); ++p) {
         const int target = particles.target_level[p];
         if (target == 0) continue;
-        const Vec3 at = transfer::scaled_position(levels, particles.position, p) * static_cast<Real>(1 << (target - 1));
         refinement.subdivide(target - 1,
-                             Index3(static_cast<int>(std::floor(at[0])), static_cast<int>(std::floor(at[1])),
-                                    static_cast<int>(std::floor(at[2]))));
+                             grid::cell_at(transfer::scaled_position(levels, particles.position, p), target - 1));
     }
     refinement.balance();
     return refinement;

@@ -44,11 +44,7 @@ int wanted_level(const std::vector<Zone>& zones, const Vec3& lower, Real spacing
 grid::Refinement refinement_of(const std::vector<Zone>& zones, const Lattice& lattice, const geometry::Bounds& bounds)
 {
     grid::Refinement refinement(lattice.levels);
-    const auto index = [&](const Vec3& x) {
-        const Vec3 scaled = (x - lattice.origin) / lattice.spacing0;
-        return Index3(static_cast<int>(std::floor(scaled[0])), static_cast<int>(std::floor(scaled[1])),
-                      static_cast<int>(std::floor(scaled[2])));
-    };
+    const auto index = [&](const Vec3& x) { return grid::cell_at((x - lattice.origin) / lattice.spacing0, 0); };
     const Index3 lower = index(bounds.lower);
     const Index3 upper = index(bounds.upper);
     for (int i = lower[0]; i <= upper[0]; ++i)

@@ -38,11 +38,11 @@ void find_gauges(const State& state, Derived& derived)
 
 void regrid(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
 {
-    state.strays.refinement = refine::refinement_from_targets(state.levels, state.particles);
-    transfer::refine_voids(prepared.options, state.levels, state.particles, state.strays.refinement);
-    refine::split_into_finer_cells(state.levels, state.strays.refinement, prepared.per_axis, state.particles);
-    refine::order(problem.numerics.formulation, state.strays.refinement, state.levels, state.particles);
-    transfer::cover_boxes(prepared.options, state.strays.refinement, state.particles, state.levels);
+    grid::Refinement refinement = refine::refinement_from_targets(state.levels, state.particles);
+    transfer::refine_voids(prepared.options, state.levels, state.particles, refinement);
+    refine::split_into_finer_cells(state.levels, refinement, prepared.per_axis, state.particles);
+    refine::order(problem.numerics.formulation, refinement, state.levels, state.particles);
+    transfer::cover_boxes(prepared.options, refinement, state.particles, state.levels);
     fold_work(state);
     transfer::assign_all(prepared.options, state.particles, state.levels, state.strays);
     derived.nonlocal = {};

@@ -66,33 +66,35 @@ std::vector<std::uint32_t> particles_near(const particles::Particles& particles,
     return ids;
 }
 
-void populate(const Problem& problem, const Prepared& prepared, State& state)
+/// Particles of all bodies; the cells of the zones are returned.
+grid::Refinement populate(const Problem& problem, const Prepared& prepared, State& state)
 {
     const refine::Lattice lattice{problem.grid.cell, problem.grid.origin, problem.grid.levels};
-    state.strays.refinement = refine::refinement_of(problem.zones, lattice, bounds_of_all(problem.bodies));
+    grid::Refinement refinement = refine::refinement_of(problem.zones, lattice, bounds_of_all(problem.bodies));
     for (const Body& body : problem.bodies) {
         const std::size_t before = state.particles.size();
         const material::Material& material = problem.materials[static_cast<std::size_t>(body.material)];
         refine::populate(body.shape,
                          {material.elastic.density, body.velocity, static_cast<std::uint8_t>(body.material),
                           problem.grid.edge, static_cast<std::uint8_t>(&body - problem.bodies.data())},
-                         lattice, state.strays.refinement, prepared.per_axis, state.particles);
+                         lattice, refinement, prepared.per_axis, state.particles);
         if (state.particles.size() == before)
             throw core::InputError(fmt::format("body '{}' has no particle: it is thinner than a cell of {} mm, or its "
                                                "shape is empty",
                                                body.name, problem.grid.cell));
     }
     add_scheme_columns(problem.numerics, state.particles);
+    return refinement;
 }
 
 /// Initial motions, and cells that fit the particles where these put them.
-void place_particles(const Problem& problem, const Prepared& prepared, State& state)
+void place_particles(const Problem& problem, const Prepared& prepared, State& state, grid::Refinement& refinement)
 {
     set_initial_state(problem, state.particles);
     if (problem.numerics.formulation == Formulation::total) return;
-    state.strays.refinement = refine::refinement_from_targets(state.levels, state.particles);
-    transfer::refine_voids(prepared.options, state.levels, state.particles, state.strays.refinement);
-    refine::split_into_finer_cells(state.levels, state.strays.refinement, prepared.per_axis, state.particles);
+    refinement = refine::refinement_from_targets(state.levels, state.particles);
+    transfer::refine_voids(prepared.options, state.levels, state.particles, refinement);
+    refine::split_into_finer_cells(state.levels, refinement, prepared.per_axis, state.particles);
     set_initial_state(problem, state.particles);
 }
 
@@ -125,12 +127,12 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
     state.levels.count = problem.grid.levels;
     state.loads.resize(problem.loads.size());
     state.ligaments.resize(problem.ligaments.size());
-    populate(problem, prepared, state);
-    transfer::refine_voids(prepared.options, state.levels, state.particles, state.strays.refinement);
-    refine::split_into_finer_cells(state.levels, state.strays.refinement, prepared.per_axis, state.particles);
-    if (begins_with_motion(problem)) place_particles(problem, prepared, state);
-    refine::order(problem.numerics.formulation, state.strays.refinement, state.levels, state.particles);
-    transfer::cover_boxes(prepared.options, state.strays.refinement, state.particles, state.levels);
+    grid::Refinement refinement = populate(problem, prepared, state);
+    transfer::refine_voids(prepared.options, state.levels, state.particles, refinement);
+    refine::split_into_finer_cells(state.levels, refinement, prepared.per_axis, state.particles);
+    if (begins_with_motion(problem)) place_particles(problem, prepared, state, refinement);
+    refine::order(problem.numerics.formulation, refinement, state.levels, state.particles);
+    transfer::cover_boxes(prepared.options, refinement, state.particles, state.levels);
     state.leaf_work.assign(state.levels.leaves.size(), {});
     if (problem.gauge) {
         const Real radius = state.levels.spacing(state.levels.count - 1);

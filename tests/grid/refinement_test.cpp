@@ -98,6 +98,16 @@ TEST(Refinement, a_copy_does_not_see_what_is_subdivided_afterwards)
     EXPECT_FALSE(copy.subdivided(0, Index3(1, 2, 3)));
 }
 
+TEST(Refinement, a_copy_does_not_see_what_is_balanced_afterwards)
+{
+    grid::Refinement refinement(3);
+    refinement.subdivide(1, Index3(1, 0, 0)); // its neighbours of level 1 ask for (1, 0, 0) of level 0
+    const grid::Refinement copy = refinement;
+    refinement.balance();
+    EXPECT_TRUE(refinement.subdivided(0, Index3(1, 0, 0)));
+    EXPECT_FALSE(copy.subdivided(0, Index3(1, 0, 0)));
+}
+
 TEST(Refinement, subdividing_a_fine_cell_subdivides_what_contains_it)
 {
     grid::Refinement refinement(3);

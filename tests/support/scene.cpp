@@ -143,10 +143,7 @@ void order(Scene& scene)
     std::vector<std::size_t> slot;
     scene.levels.cell_start.assign(scene.levels.leaves.size() * grid::leaf_cells + 1, 0);
     for (const grid::CellKey& k : key) {
-        const auto leaf = static_cast<std::size_t>(grid::leaf_of(scene.levels, k.level, k.cell));
-        const Index3 local = k.cell - scene.levels.leaves[leaf].origin;
-        slot.push_back(leaf * grid::leaf_cells +
-                       static_cast<std::size_t>(grid::cell_index(local[0], local[1], local[2])));
+        slot.push_back(static_cast<std::size_t>(grid::slot_of(scene.levels, k)));
         ++scene.levels.cell_start[slot.back() + 1];
     }
     std::partial_sum(scene.levels.cell_start.begin(), scene.levels.cell_start.end(), scene.levels.cell_start.begin());
