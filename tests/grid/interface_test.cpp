@@ -38,8 +38,8 @@ void expect_same_grid(const grid::Levels& a, const grid::Levels& b)
     }
     EXPECT_EQ(a.cell_active, b.cell_active);
     EXPECT_EQ(a.constrained, b.constrained);
-    const auto same = [](const grid::NodeAddress& a, const grid::NodeAddress& b) {
-        return a.leaf == b.leaf && a.node == b.node;
+    const auto same = [](const grid::NodeAddress& left, const grid::NodeAddress& right) {
+        return left.leaf == right.leaf && left.node == right.node;
     };
     for (std::size_t l = 0; l < b.interface.size(); ++l) {
         const grid::LevelInterface &f = a.interface[l], &g = b.interface[l];
