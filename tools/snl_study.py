@@ -20,6 +20,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.collections import PolyCollection
 
 from picture_of_run import read_curve, read_frame
 
@@ -29,6 +30,7 @@ AVERAGED = ['material.steel.dilatation="cell"']
 SECOND = [f"{DECOHESION}.second_crack=true"]
 BRIDGED = [f"{DECOHESION}.second_crack=false"]
 D_AT = "feature.D.centre=[18.52, {:.2f}, 0]"
+AT_START = ['end.time="1e-5 ms"']
 
 
 @dataclasses.dataclass
@@ -95,6 +97,9 @@ VARIANTS = {
     "fine-shear": Variant("fine", FINE, "paper, mode II only, three levels", mode("shear")),
     "challenge": Variant("fine", "snl/challenge.toml", "paper, mixed mode, two levels as in the paper"),
     "objective-challenge": Variant("fine", "snl/objective/challenge.toml", "objective, three levels"),
+    "levels": Variant("levels", "snl/challenge.toml", "0.25 and 0.125 mm, as in the paper", AT_START),
+    "levels-lean": Variant("levels", FINE, "0.5, 0.25 and 0.125 mm", AT_START),
+    "levels-preview": Variant("levels", PAPER, "0.5 and 0.25 mm, preview", AT_START),
     "whole-plain": Variant("field", "snl/no-fracture.toml", "plain points", ['material.steel.dilatation="point"',
                            'output.particles.fields=["stress", "damage", "eq_plastic_strain"]']),
     "whole-averaged": Variant("field", "snl/no-fracture.toml", "averaged dilatation",
@@ -244,6 +249,31 @@ def draw_coupon(path, results):
     plt.close(figure)
 
 
+def draw_levels(path, results):
+    """Cells of the first frame that have material at the middle plane, one grey per size."""
+    names = [name for name, variant in VARIANTS.items() if variant.group == "levels" and name in results]
+    if not names:
+        return
+    figure, axes = plt.subplots(1, len(names), figsize=(4.2 * len(names), 4.2), squeeze=False)
+    for one, name in zip(axes[0], names):
+        _, points, _, side = read_frame(results[name], 0)
+        for size, grey in zip(np.unique(side.round(6))[::-1], ("0.95", "0.8", "0.62")):
+            cell = 2 * size
+            inside = (np.abs(side - size) < 1e-5) & (points[:, 2] < points[:, 2].min() + 4 * side.max())
+            lower = np.unique(np.floor(points[inside, :2] / cell), axis=0) * cell
+            corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * cell
+            one.add_collection(PolyCollection(lower[:, None, :] + corners, facecolor=grey, edgecolor="0.3", linewidth=0.12))
+        one.set_xlim(-0.5, 32.5)
+        one.set_ylim(-16.5, 16.5)
+        one.set_aspect("equal")
+        one.set_axis_off()
+        particles = f"{len(points):,}".replace(",", " ")
+        one.set_title(f"{VARIANTS[name].change}: {particles} particles", fontsize=9)
+    figure.tight_layout()
+    figure.savefig(path, dpi=130)
+    plt.close(figure)
+
+
 def largest_principal(stress):
     """Of ParaView's order xx yy zz xy yz zx."""
     xx, yy, zz, xy, yz, zx = stress.T
@@ -334,6 +364,7 @@ def write_page(results, reference):
         if name in results:
             draw_sequence(images / "snl-sequence.png", results[name], [1.0, 2.5, 4.0, 6.0])
             break
+    draw_levels(images / "snl-levels.png", results)
     draw_coupon(images / "snl-coupon.png", results)
     draw_stress(images / "snl-stress.png", results)
     page = ROOT / "docs/snl.md"
