@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
 namespace app
 {
@@ -113,6 +114,9 @@ struct Fit
     Real finest = 0, cost = 0;
 };
 
+/// What method_overrides changes of a grid: cell, levels, particles per cell.
+using GridKey = std::tuple<Real, int, int>;
+
 /// Cells of a grid that a machine can hold: beyond, nothing is counted and nothing advised.
 constexpr Real most_cells = 3e6;
 
@@ -129,8 +133,9 @@ Real cells_around(const solver::Problem& problem, Real cell)
 
 /// The coarsest grid of the case whose finest cell is at most `finest`: the case's own cell times 4, 2, 1, 1/2, 1/3,
 /// ..., so that planes and bodies that fitted its lattice still do.
+/// @param counted  grids that were counted before: methods share them
 std::optional<Fit> fitting_grid(const AdviceRequest& request, const solver::Problem& problem, const ChartRow& method,
-                                Real finest)
+                                Real finest, std::map<GridKey, ParticleCount>& counted)
 {
     const Real several = method.levels > 1 ? std::pow(Real(2), problem.grid.levels - 1) : 1;
     constexpr int finest_part = 64;
@@ -144,7 +149,11 @@ std::optional<Fit> fitting_grid(const AdviceRequest& request, const solver::Prob
         std::vector<std::string> overrides = request.overrides;
         overrides.insert(overrides.end(), fit.set.begin(), fit.set.end());
         try {
-            const Forecast f = forecast(io::read_case(request.file, overrides));
+            const solver::Problem fitted = io::read_case(request.file, overrides);
+            const GridKey key{fitted.grid.cell, fitted.grid.levels, fitted.grid.particles_per_cell};
+            auto count = counted.find(key);
+            if (count == counted.end()) count = counted.emplace(key, count_particles(fitted)).first;
+            const Forecast f = forecast(fitted, count->second);
             fit.cost = f.steps * static_cast<Real>(f.total_particles());
             return fit;
         } catch (const core::InputError&) {
@@ -278,6 +287,7 @@ std::optional<Advice> advise(const AdviceRequest& request, const std::vector<Cha
     for (const std::string& scene : scenes)
         if (!reached_by_any(all, scene, request.error)) silent.push_back(scene);
     std::optional<Advice> best;
+    std::map<GridKey, ParticleCount> counted;
     for (const Candidate& candidate : all) {
         if (candidate.method->levels > 1 && problem.grid.levels < 2) continue; // the case has no zones
         Advice advice;
@@ -299,7 +309,7 @@ std::optional<Advice> advise(const AdviceRequest& request, const std::vector<Cha
         if (fails || advice.evidence.empty() || 2 * advice.evidence.size() < scenes.size() - silent.size()) continue;
         advice.silent = silent;
         const std::optional<Fit> fit =
-            fitting_grid(request, problem, *candidate.method, advice.resolution * features.length);
+            fitting_grid(request, problem, *candidate.method, advice.resolution * features.length, counted);
         if (!fit) continue;
         advice.set = fit->set;
         advice.finest_mm = fit->finest;

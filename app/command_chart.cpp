@@ -36,6 +36,7 @@ struct Options
 
     std::string advise; // a case; empty: chart
     bool leave_one_out = false;
+    bool summary = false;
     std::string from; // table to advise from
     std::vector<std::string> without;
     std::vector<std::string> overrides;
@@ -159,6 +160,12 @@ std::vector<io::ChartRow> measured(const Options& options)
     throw core::InputError("docs/accuracy.csv is not beside this program: give --from DIR of a chart");
 }
 
+int summary(const Options& options)
+{
+    fmt::print("{}", chart_text(measured(options)));
+    return exit_done;
+}
+
 int advice(const Options& options)
 {
     const Real error = wanted_error(options.error);
@@ -201,6 +208,8 @@ void add_chart(CLI::App& program, Command& chosen)
         command->add_option("--advise", options->advise, "run nothing: settings for this case from what was measured");
     CLI::Option* left_out = command->add_flag("--leave-one-out", options->leave_one_out,
                                               "run nothing: advise each charted scene from the others, and compare");
+    CLI::Option* summed =
+        command->add_flag("--summary", options->summary, "run nothing: the table of a chart, scene by scene");
     command->add_option("--error", options->error, "wanted relative error, such as 2%");
     command->add_option("--from", options->from, "chart.csv, or directory of a chart (default: docs/accuracy.csv)");
     command->add_option("--without", options->without, "do not learn from this scene; may be repeated")
@@ -209,10 +218,13 @@ void add_chart(CLI::App& program, Command& chosen)
         ->check(CLI::PositiveNumber);
     command->add_option("--set", options->overrides, "key=value for the case to advise; may be repeated")
         ->allow_extra_args(false);
+    summed->excludes(advised)->excludes(left_out);
     command->callback([&chosen, options, advised, left_out] {
-        const bool run = advised->count() == 0 && left_out->count() == 0;
-        if (!run && options->error.empty()) throw CLI::ValidationError("--error", "is needed, such as --error 2%");
-        chosen = [options, run] { return run ? chart(*options) : advice(*options); };
+        const bool advise = advised->count() > 0 || left_out->count() > 0;
+        if (advise && options->error.empty()) throw CLI::ValidationError("--error", "is needed, such as --error 2%");
+        chosen = [options, advise] {
+            return options->summary ? summary(*options) : advise ? advice(*options) : chart(*options);
+        };
     });
 }
 } // namespace app

@@ -46,35 +46,6 @@ LeafKey leaf_of(const solver::Problem& problem, const particles::Particles& part
     return key;
 }
 
-/// Seed one slab of level-0 cells after the other, count, forget.
-void count_particles(const solver::Problem& problem, Forecast& forecast)
-{
-    const refine::Lattice lattice = lattice_of(problem);
-    const grid::Refinement refinement = refine::refinement_of(problem.zones, lattice, bounds_of_all(problem));
-    const int per_axis = static_cast<int>(std::lround(std::cbrt(problem.grid.particles_per_cell)));
-    const Real thickness = 8 * problem.grid.cell;
-    std::set<LeafKey> leaves;
-    forecast.particles.assign(static_cast<std::size_t>(problem.grid.levels), 0);
-    for (const solver::Body& body : problem.bodies) {
-        const geometry::Bounds bounds = body.shape.bounds();
-        const int first = static_cast<int>(std::floor((bounds.lower[0] - problem.grid.origin[0]) / thickness));
-        for (int slab = first; problem.grid.origin[0] + slab * thickness < bounds.upper[0]; ++slab) {
-            const Real lower = problem.grid.origin[0] + slab * thickness;
-            const geometry::Shape layer =
-                geometry::box(Vec3(lower, -infinity, -infinity), Vec3(lower + thickness, infinity, infinity));
-            particles::Particles particles;
-            const particles::SeedTraits traits{1, Vec3::Zero(), 0, problem.grid.edge};
-            refine::populate(geometry::intersect({body.shape, layer}), traits, lattice, refinement, per_axis,
-                             particles);
-            for (std::size_t p = 0; p < particles.size(); ++p) {
-                ++forecast.particles[particles.size_level[p]];
-                leaves.insert(leaf_of(problem, particles, p));
-            }
-        }
-    }
-    forecast.leaves = leaves.size();
-}
-
 Real fastest_wave(const solver::Problem& problem)
 {
     Real fastest = 0;
@@ -166,7 +137,7 @@ Real kinetic_share(const solver::Problem& problem)
 }
 } // namespace
 
-std::uint64_t Forecast::total_particles() const
+std::uint64_t ParticleCount::total_particles() const
 {
     std::uint64_t total = 0;
     for (const std::uint64_t count : particles) total += count;
@@ -179,10 +150,45 @@ Real assumed_steps_per_s(const solver::Numerics& numerics)
     return numerics.precision == solver::Precision::mixed ? 70e6 : 45e6;
 }
 
+// Seed one slab of level-0 cells after the other, count, forget.
+ParticleCount count_particles(const solver::Problem& problem)
+{
+    const refine::Lattice lattice = lattice_of(problem);
+    const grid::Refinement refinement = refine::refinement_of(problem.zones, lattice, bounds_of_all(problem));
+    const int per_axis = static_cast<int>(std::lround(std::cbrt(problem.grid.particles_per_cell)));
+    const Real thickness = 8 * problem.grid.cell;
+    std::set<LeafKey> leaves;
+    ParticleCount count;
+    count.particles.assign(static_cast<std::size_t>(problem.grid.levels), 0);
+    for (const solver::Body& body : problem.bodies) {
+        const geometry::Bounds bounds = body.shape.bounds();
+        const int first = static_cast<int>(std::floor((bounds.lower[0] - problem.grid.origin[0]) / thickness));
+        for (int slab = first; problem.grid.origin[0] + slab * thickness < bounds.upper[0]; ++slab) {
+            const Real lower = problem.grid.origin[0] + slab * thickness;
+            const geometry::Shape layer =
+                geometry::box(Vec3(lower, -infinity, -infinity), Vec3(lower + thickness, infinity, infinity));
+            particles::Particles particles;
+            const particles::SeedTraits traits{1, Vec3::Zero(), 0, problem.grid.edge};
+            refine::populate(geometry::intersect({body.shape, layer}), traits, lattice, refinement, per_axis,
+                             particles);
+            for (std::size_t p = 0; p < particles.size(); ++p) {
+                ++count.particles[particles.size_level[p]];
+                leaves.insert(leaf_of(problem, particles, p));
+            }
+        }
+    }
+    count.leaves = leaves.size();
+    return count;
+}
+
 Forecast forecast(const solver::Problem& problem)
 {
-    Forecast forecast;
-    count_particles(problem, forecast);
+    return forecast(problem, count_particles(problem));
+}
+
+Forecast forecast(const solver::Problem& problem, const ParticleCount& counted)
+{
+    Forecast forecast{counted};
     const Real finest = problem.grid.cell / static_cast<Real>(1 << (problem.grid.levels - 1));
     forecast.dt = problem.numerics.cfl * finest / fastest_wave(problem);
     forecast.end_time = end_time(problem);

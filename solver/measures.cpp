@@ -3,6 +3,7 @@
 #include "solver/ligaments.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace solver
 {
@@ -26,7 +27,9 @@ std::vector<std::size_t> initiations(const Problem& problem, const std::vector<L
         const bool continues =
             (is_end(ligament.from) && !is_visited(ligament.to)) || (is_end(ligament.to) && !is_visited(ligament.from));
         if (!continues || states[i].first_time < 0) continue;
-        if (!next || states[i].first_time < states[*next].first_time) next = i;
+        // Where holes lie close, a column at the rim of one belongs to more than one ligament.
+        const auto later = [&](std::size_t n) { return std::pair(-states[n].front, states[n].first_time); };
+        if (!next || later(i) < later(*next)) next = i;
     }
     if (next) events.push_back(*next);
     std::stable_sort(events.begin(), events.end(),

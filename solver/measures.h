@@ -24,7 +24,7 @@ struct Measures
 };
 
 /// Ligaments (indices) whose first broken column is a crack initiation, in time order: those of the crack path and, of
-/// the ones that continue it and have begun, the first.
+/// the ones that continue it and have begun, the one that is cut furthest, at equal share the first.
 std::vector<std::size_t> crack_initiations(const Problem& problem, const std::vector<LigamentState>& ligaments);
 
 /// Names: peak_force_N; c1_force_N, c1_cod_mm, c2_..., c3_...; energy_residual.

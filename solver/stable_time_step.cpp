@@ -39,8 +39,9 @@ struct Signal
     const std::size_t p = signal.particle;
     const std::string cause =
         total
-            ? fmt::format("the material there is squeezed to 1/{:.0f} of its width, further than the total "
-                          "formulation can follow: coarser cells, the updated formulation or a crack model may help",
+            ? fmt::format("the material there is squeezed so far that waves pass it {:.0f} times as fast as at rest, "
+                          "further than the total formulation can follow: coarser cells, the updated formulation or a "
+                          "crack model may help",
                           signal.speed / prepared.wave_speed)
             : fmt::format("it moves at {:.3g} mm/ms, the speed of sound is {:.4g} mm/ms: the computation is unstable, "
                           "try numerics.stress_update = \"musl\" or a smaller numerics.cfl",
@@ -63,7 +64,7 @@ Real signal_speed(const Prepared& prepared, const State& state, std::size_t p)
     if (prepared.options.formulation == Formulation::updated) return prepared.wave_speed + speed;
     const std::int32_t crack = particles.crack[p];
     if (crack >= 0 && particles.cracks[static_cast<std::size_t>(crack)].damage >= 1) return prepared.wave_speed;
-    const Real squeeze = transfer::cell_squeeze(particles::deformation_of(particles, p));
+    const Real squeeze = std::sqrt(transfer::cell_stiffening(particles::deformation_of(particles, p)));
     if (!std::isfinite(squeeze)) not_finite(state, p);
     return prepared.wave_speed * std::max(Real(1), squeeze);
 }

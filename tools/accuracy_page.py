@@ -4,7 +4,8 @@
 usage: tools/accuracy_page.py [-o DIRECTORY] [--cleave PROGRAM] [--page-only]
 
 Runs the quick suite and, of the full one, the scenes of FULL into DIRECTORY (default results/accuracy); what is done there is not
-run again. `--page-only` writes the page from what is there. Nothing else should run meanwhile: the cost is processor time.
+run again. `--page-only` writes the page from what is there; scenes that are not there keep their rows of docs/accuracy.csv. Nothing
+else should run meanwhile: the cost is processor time.
 """
 import argparse
 import csv
@@ -14,7 +15,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FULL = ["c19-dcb", "c22-compact-tension"]
+FULL = ["c19-dcb", "c22-compact-tension", "c28-challenge"]
 # Scene of the suites: its name on the page, and what is asked.
 SCENES = {
     "c1-waves": ("C1 waves, displacement", "manufactured solution, one period, stretch 16 %"),
@@ -57,33 +58,38 @@ def chart(program, directory, arguments):
         sys.exit(f"{program} chart {' '.join(arguments)}: ended with code {code}; the same command goes on")
 
 
-def merge(directories):
-    """docs/accuracy.csv of the charts, scenes in the order of SCENES."""
-    rows = []
-    for directory in directories:
-        with open(directory / "chart.csv", newline="") as file:
-            reader = csv.DictReader(file)
-            rows += list(reader)
-            columns = reader.fieldnames
+def read_rows(path):
+    if not path.exists():
+        return {}
+    with open(path, newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {scene: [row for row in rows if row["scene"] == scene] for scene in dict.fromkeys(row["scene"] for row in rows)}
+
+
+def merge(quick, full):
+    """docs/accuracy.csv of the charts, scenes in the order of SCENES; those of FULL never from the quick suite."""
+    by_scene = read_rows(ROOT / "docs/accuracy.csv")
+    by_scene |= {scene: rows for scene, rows in read_rows(quick / "chart.csv").items() if scene not in FULL}
+    by_scene |= {scene: rows for scene, rows in read_rows(full / "chart.csv").items() if rows[0]["status"] != "pending"}
+    rows = [row for rows in by_scene.values() for row in rows]
     unknown = {row["scene"] for row in rows} - set(SCENES)
     if unknown:
         sys.exit(f"scenes without a name in {pathlib.Path(__file__).name}: {', '.join(sorted(unknown))}")
     order = list(SCENES)
     rows.sort(key=lambda row: order.index(row["scene"]))
     with open(ROOT / "docs/accuracy.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, columns, lineterminator="\n")
+        writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
     return rows
 
 
-def summaries(directories):
-    """Cells of the rows of every chart.md by scene and head."""
-    found = {}
-    for directory in directories:
-        lines = [[cell.strip() for cell in line.strip("|\n").split("|")] for line in open(directory / "chart.md")]
-        found |= {cells[0]: dict(zip(lines[0], cells)) for cells in lines[2:]}
-    return {scene: found[scene] for scene in SCENES if scene in found}
+def summaries(program):
+    """Cells of the table of docs/accuracy.csv by scene and head."""
+    text = subprocess.run([program, "chart", "--summary", "--from", ROOT / "docs/accuracy.csv"], cwd=ROOT, capture_output=True, text=True,
+                          check=True).stdout
+    head, *lines = [re.split(r"\s{2,}", line.strip()) for line in text.splitlines()]
+    return {cells[0]: dict(zip(head, cells)) for cells in lines}
 
 
 def scene_table(summary):
@@ -118,16 +124,13 @@ def advice_table(program):
     return "\n".join(lines)
 
 
-def facts(directories, rows):
-    """What was run, and the processor time of both parts."""
-    spent = []
-    for directory in directories:
-        with open(directory / "chart.csv", newline="") as file:
-            spent.append(sum(float(row["cpu_s"] or 0) for row in csv.DictReader(file)) / 60)
+def facts(rows):
+    """What was run, and the processor time of both suites."""
+    spent = [sum(float(row["cpu_s"] or 0) for row in rows if (row["scene"] in FULL) == full) / 60 for full in (False, True)]
     runs = sum(row["status"] not in ("not applicable", "pending") for row in rows)
     cases = len({row["case"] for row in rows})
     return (f"{len({row['scene'] for row in rows})} charts on {cases} cases, {runs} runs: {spent[0]:.0f} min of processor time in the quick "
-            f"suite and {sum(spent[1:]):.0f} min in {' and '.join(SCENES[scene][0] for scene in FULL)} of the full one.")
+            f"suite, {spent[1]:.0f} min in {', '.join(SCENES[scene][0] for scene in FULL)} of the full one.")
 
 
 def replaced(text, mark, table):
@@ -147,14 +150,14 @@ def main():
     if not options.page_only:
         chart(options.cleave, directories[0], ["--quick"])
         chart(options.cleave, directories[1], [part for scene in FULL for part in ("--scene", scene)])
-    rows = merge(directories)
+    rows = merge(*directories)
     subprocess.run([ROOT / "tools/plot_chart.py", ROOT / "docs/accuracy.csv", "-o", output / "plots"], check=True)
     for scene in SCENES:
         (ROOT / "docs/img/accuracy" / f"{scene}.png").write_bytes((output / "plots" / f"{scene}.png").read_bytes())
-    summary = summaries(directories)
+    summary = summaries(options.cleave)
     page = ROOT / "docs/accuracy.md"
     text = page.read_text()
-    for mark, table in (("facts", facts(directories, rows)), ("scenes", scene_table(summary)), ("gains", gain_table(summary)),
+    for mark, table in (("facts", facts(rows)), ("scenes", scene_table(summary)), ("gains", gain_table(summary)),
                         ("advice", advice_table(options.cleave))):
         text = replaced(text, mark, table)
     page.write_text(text)

@@ -30,6 +30,7 @@ AVERAGED = ['material.steel.dilatation="cell"']
 SECOND = [f"{DECOHESION}.second_crack=true"]
 BRIDGED = [f"{DECOHESION}.second_crack=false"]
 D_AT = "feature.D.centre=[18.52, {:.2f}, 0]"
+HIGHER_C = ["feature.C.centre=[21.08, 0.89, 0]", f'{DECOHESION}.tau_max="787 MPa"', 'grid.edge="distance"']  # decision 027
 AT_START = ['end.time="1e-5 ms"']
 
 
@@ -90,6 +91,8 @@ VARIANTS = {
     "objective-slow": Variant("objective", OBJECTIVE, "pins part at 2.5 m/s", speed(1.25, 3.2)),
     "objective-fast": Variant("objective", OBJECTIVE, "pins part at 10 m/s", speed(5, 0.9)),
     "objective-edges": Variant("objective", OBJECTIVE, "cut cells by distances to the surface (thickness exact)", ['grid.edge="distance"']),
+    "objective-C+0.05": Variant("objective", OBJECTIVE, "the same, hole C higher by 0.05 mm, tau_max 787 MPa", HIGHER_C),
+    "objective-challenge-C+0.05": Variant("fine", "snl/objective/challenge.toml", "objective, three levels, distances, hole C higher by 0.05 mm, tau_max 787 MPa", HIGHER_C),
     "slice": Variant("slice", "snl/slice.toml", "cells of 0.25 mm"),
     "slice-fine": Variant("slice", "snl/slice.toml", "cells of 0.125 mm", ["grid.cell=0.25"]),
     "fine-mixed": Variant("fine", FINE, "paper, mixed mode, three levels"),
@@ -107,6 +110,8 @@ VARIANTS = {
     **{f"coupon-{v:g}": Variant("coupon", COUPON, f"{2 * v:g} m/s", grip_speed(v)) for v in (0.5, 2.5, 5)},
 }
 EVENT_GROUPS = ["preview", "objective", "slice", "fine"]
+EVENTS = (1, 2, 3)
+BEFORE = 0.2  # mm of opening before an event over which the force is averaged: it rings by half a kilonewton
 MEASURES = ["peak_force_N", "c1_force_N", "c1_cod_mm", "c2_force_N", "c2_cod_mm", "c3_force_N", "c3_cod_mm"]
 
 
@@ -140,6 +145,15 @@ def force_near(directory, opening):
     return float(f[near].mean()) if near.any() else float("nan")
 
 
+def force_before(directory, opening):
+    """Mean over the opening from BEFORE an event to it."""
+    if opening is None:
+        return None
+    x, f = read_curve(directory)
+    inside = (x > opening - BEFORE) & (x <= opening)
+    return float(f[inside].mean()) if inside.any() else None
+
+
 def draw_pattern(axes, directory, time=None, title=None):
     at_time, points, data, side = read_frame(directory, time)
     damage, failed, strain = data["damage"], data["failure_mode"], data["eq_plastic_strain"]
@@ -165,7 +179,7 @@ def draw_curves(path, results, names, reference):
         if name in results:
             axes.plot(*[v / s for v, s in zip(smooth(*read_curve(results[name])), (1, 1000))], linewidth=1.2, label=VARIANTS[name].change)
     for marker, (who, numbers) in zip("os", reference.items()):
-        axes.plot([numbers[f"c{k}_cod_mm"] for k in (1, 2, 3)], [numbers[f"c{k}_force_N"] / 1000 for k in (1, 2, 3)], marker,
+        axes.plot([numbers[f"c{k}_cod_mm"] for k in EVENTS], [numbers[f"c{k}_force_N"] / 1000 for k in EVENTS], marker,
                   color="0.2", markersize=5, markerfacecolor="none" if marker == "s" else "0.2", label=f"{who}: crack initiations")
     axes.set_xlabel("crack opening displacement [mm]")
     axes.set_ylabel("force [kN]")
@@ -210,6 +224,7 @@ def row_of(name, directory):
     measures = record["measures"]
     return {"group": VARIANTS[name].group, "variant": name, "case": VARIANTS[name].case, "change": VARIANTS[name].change,
             **{key: measures.get(key) for key in MEASURES},
+            **{f"c{k}_mean_N": force_before(directory, measures.get(f"c{k}_cod_mm")) for k in EVENTS},
             "crack_path": measures.get("crack_path") or "", "force_at_3mm_N": force_near(directory, 3),
             "force_at_6mm_N": force_near(directory, 6), "energy_residual": measures.get("energy_residual"),
             "particles": sum(record["particles"]["start"]), "steps": record["steps"], "wall_s": round(record["wall_s"])}
@@ -219,7 +234,7 @@ def table(rows):
     lines = ["| change | peak, N | C1, N / mm | C2, N / mm | C3, N / mm | path | N at 3 mm | N at 6 mm | residual |",
              "|---|---|---|---|---|---|---|---|---|"]
     for row in rows:
-        event = [f"{number(row[f'c{k}_force_N'])} / {number(row[f'c{k}_cod_mm'], 2)}" for k in (1, 2, 3)]
+        event = [f"{number(row[f'c{k}_force_N'])} / {number(row[f'c{k}_cod_mm'], 2)}" for k in EVENTS]
         residual = f"{row['energy_residual']:.1e}" if row["energy_residual"] is not None else "–"
         lines.append(f"| {row['change']} | {number(row['peak_force_N'])} | {' | '.join(event)} | {row['crack_path'] or '–'} | "
                      f"{number(row['force_at_3mm_N'])} | {number(row['force_at_6mm_N'])} | {residual} |")
@@ -318,6 +333,27 @@ def kept_rows():
                 for row in csv.DictReader(file) if row["variant"] in VARIANTS}
 
 
+def off(value, against):
+    return f" ({100 * (value / against - 1):+.0f} %)"
+
+
+def half_the_cells(rows, reference):
+    """The objective model at both cell sizes, and against the experiment."""
+    coarse, fine, experiment = rows["objective"], rows["objective-challenge"], reference["experiment"]
+    keys = ["peak_force_N"] + [f"c{k}_{what}" for k in EVENTS for what in ("mean_N", "cod_mm")]
+    measured = {**experiment, **{f"c{k}_mean_N": experiment[f"c{k}_force_N"] for k in EVENTS}}
+    if any(row.get(key) is None for row in (coarse, fine) for key in keys):
+        return None
+    show = lambda row, key: number(row[key], 2 if key.endswith("mm") else 0)
+    lines = ["| | maximum, N | " + " | ".join(f"C{k}: mean N before | COD mm" for k in EVENTS) + " |", "|---" * (len(keys) + 1) + "|",
+             "| 0.25 mm | " + " | ".join(show(coarse, key) for key in keys) + " |",
+             "| 0.125 mm | " + " | ".join(show(fine, key) + off(fine[key], coarse[key]) for key in keys) + " |",
+             "| experiment | " + " | ".join(show(measured, key) for key in keys) + " |",
+             "| 0.25 mm against it | " + " | ".join(off(coarse[key], measured[key]).strip(" ()") for key in keys) + " |",
+             "| 0.125 mm against it | " + " | ".join(off(fine[key], measured[key]).strip(" ()") for key in keys) + " |"]
+    return "\n".join(lines)
+
+
 def table_one(rows, reference):
     """Table 1 of the paper with the runs at its resolution beside it."""
     columns = [("experiment", reference["experiment"]), ("Yang et al.", reference["simulation"])]
@@ -325,14 +361,12 @@ def table_one(rows, reference):
                 for name in ("challenge", "mixed", "objective-challenge", "objective") if name in rows]
     experiment = reference["experiment"]
     lines = ["| measure | " + " | ".join(str(title) for title, _ in columns) + " |", "|---" * (len(columns) + 1) + "|"]
-    for key, text, digits in [("peak_force_N", "maximum force, N", 0)] + [
-            (f"c{k}_{what}", f"C{k}, {unit}", digits) for k in (1, 2, 3)
-            for what, unit, digits in (("force_N", "N", 0), ("cod_mm", "COD mm", 2))]:
-        cells = []
-        for title, numbers in columns:
-            value = numbers.get(key)
-            off = "" if value is None or title == "experiment" else f" ({100 * (value / experiment[key] - 1):+.0f} %)"
-            cells.append(number(value, digits) + off)
+    for key, against, text, digits in [("peak_force_N", "peak_force_N", "maximum force, N", 0)] + [
+            (f"c{k}_{what}", f"c{k}_{measured}", f"C{k}, {unit}", digits) for k in EVENTS
+            for what, measured, unit, digits in (("force_N", "force_N", "N", 0), ("mean_N", "force_N", f"mean N of the {BEFORE} mm before", 0),
+                                                 ("cod_mm", "cod_mm", "COD mm", 2))]:
+        cells = [number(value, digits) + ("" if value is None or title == "experiment" else off(value, experiment[against]))
+                 for title, numbers in columns for value in [numbers.get(key)]]
         lines.append(f"| {text} | " + " | ".join(cells) + " |")
     paths = ["A-D-C-E", "A-D-C-E"] + [numbers.get("crack_path") or "–" for _, numbers in columns[2:]]
     lines.append("| cut through | " + " | ".join(paths) + " |")
@@ -349,7 +383,7 @@ def write_page(results, reference):
     by_name = kept_rows() | {name: row_of(name, results[name]) for name in results if VARIANTS[name].group in EVENT_GROUPS}
     rows = [by_name[name] for name in VARIANTS if name in by_name]
     with open(ROOT / "docs/snl.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, rows[0].keys())
+        writer = csv.DictWriter(file, dict.fromkeys(key for row in rows for key in row), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
     images = ROOT / "docs/img"
@@ -369,6 +403,9 @@ def write_page(results, reference):
     draw_stress(images / "snl-stress.png", results)
     page = ROOT / "docs/snl.md"
     text = replaced(page.read_text(), "table 1", table_one(by_name, reference))
+    halved = half_the_cells(by_name, reference)
+    if halved:
+        text = replaced(text, "half the cells", halved)
     for group in EVENT_GROUPS:
         members = [row for row in rows if row["group"] == group]
         if members and f"<!-- {group} -->" in text:

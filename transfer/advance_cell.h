@@ -129,7 +129,9 @@ carry(const PassOptions& options, const LawTable& laws, const CellFrame& frame, 
     for (Lanes& entry : g.m) entry *= dt;
     k.averaged = k.here & law_lanes<Plain>(laws, particles, begin, count).averaged;
     if constexpr (F == Formulation::total) {
+        const Lanes least = Lanes(least_averaged_volume) * k.volume;
         k.gradient_increment = advance_deformation(g, begin, count, particles, k.volume, given);
+        k.averaged = k.averaged & !(k.volume < least);
     } else {
         k.gradient_increment = g;
         const Lanes ratio = load(particles.volume_ratio, begin, count);

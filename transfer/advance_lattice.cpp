@@ -45,6 +45,14 @@ template <class T>
 template <class T>
 using PartMask = core::Mask<T, part_lanes<T>>;
 
+/// 1 where a slot takes the mean dilatation of its cell, else 0.
+template <class T>
+[[gnu::always_inline]] inline PartLanes<T> averaged(const Work<T>& work, const SlotLaw<T>& law, int s)
+{
+    using V = PartLanes<T>;
+    return core::select(work.volume[s] < V(T(least_averaged_volume)) * work.rest_volume[s], V(T(0)), law.averaged);
+}
+
 /// Mean dilatation of the averaged particles of every cell, weighted by volume (methods.md B8).
 /// @param intact  [slot] lanes with a particle that follows the plastic law
 template <class T>
@@ -55,7 +63,7 @@ template <class T>
     V volume(T(0)), dilated(T(0));
     for (int s = 0; s < slots; ++s) {
         const core::Mat<V>& g = work.gradient[s];
-        const V weight = core::select(intact[s], work.volume[s] * work.law[s * law_step].averaged, V(T(0)));
+        const V weight = core::select(intact[s], work.volume[s] * averaged(work, work.law[s * law_step], s), V(T(0)));
         volume += weight;
         dilated += core::select(intact[s], weight * (g(0, 0) + g(1, 1) + g(2, 2)), V(T(0)));
     }
@@ -72,7 +80,7 @@ template <class T>
     using V = PartLanes<T>;
     const core::Mat<V>& g = work.gradient[s];
     core::Sym<V> strain = core::symmetric_part(g);
-    const V shift = law.averaged * (mean - core::trace(strain)) * V(Real(1) / 3);
+    const V shift = averaged(work, law, s) * (mean - core::trace(strain)) * V(Real(1) / 3);
     for (int a = 0; a < 3; ++a) strain[a] += shift;
     core::Sym<V> old;
     for (std::size_t n = 0; n < 6; ++n) old.s[n] = part.load(state.stress[n], s);

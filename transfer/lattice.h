@@ -69,8 +69,8 @@ void advance_lattice(const grid::LevelSteps& steps, const PassOptions& options, 
 struct LatticeSurvey
 {
     Real elastic = 0; // mJ
-    Real squeeze = 0; // 1, of the cell that is squeezed most (transfer/lattice_survey.cpp); not finite if some F is not
-    std::size_t worst = 0; // its particle that is squeezed most
+    Real squeeze = 0; // 1, of the cell that shortens the step most (lattice_squeeze.h); not finite if some F is not
+    std::size_t worst = 0; // its particle that does
 };
 
 /// Survey of every leaf; reads motion (halos filled).

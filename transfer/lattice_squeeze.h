@@ -1,7 +1,8 @@
 /// What the choice of the time step asks the lattice for.
 ///
-/// A particle s that is squeezed by q_s = max |F_s^{-T} e_a| has at most (c_d q_s / (0.63 h / 2))^2 m_s N_n(s) of
-/// stiffness in every corner n of its cell (cell_squeeze.h), so the whole cell is as stable as one squeezed by
+/// A particle s of stiffening q_s^2 = max |F_s^{-T} e_a|^2 min(1, J_s) has at most
+/// (c_d q_s / (0.63 h / 2))^2 m_s N_n(s) of stiffness in every corner n of its cell (cell_squeeze.h), so waves pass the
+/// whole cell as if it were 1/q wide,
 ///
 ///   q^2 = max_n  sum_s m_s N_n(s) q_s^2 / sum_s m_s N_n(s),   s: the particles that transmit force,
 ///

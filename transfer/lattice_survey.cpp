@@ -82,7 +82,7 @@ V largest_corner_mean(const V (&value)[slots], const V (&counts)[slots])
     return largest;
 }
 
-/// Slot of a lane that is squeezed most among those that count; the first that is not a number.
+/// Slot of a lane that has become stiffest for its mass among those that count; the first that is not a number.
 template <class V>
 int tightest_slot(const V (&squared)[slots], const V (&counts)[slots], int lane)
 {
@@ -113,8 +113,7 @@ void survey_part(const Context& context, const particles::Particles& particles, 
         if (!particles.cracks.empty()) regard_cracks(context, part, particles, s, volume, counts[s]);
         if (context.lattice.material[context.leaf] == Lattice::mixed)
             regard_densities(context, part, particles, s, counts[s]);
-        const V squeeze = cell_squeeze(f);
-        squared[s] = squeeze * squeeze;
+        squared[s] = cell_stiffening(f);
         if constexpr (with_energy)
             survey.elastic += energy_of(law[s * law_step], part, state, s, volume * core::determinant(f));
     }

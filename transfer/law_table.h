@@ -13,6 +13,9 @@ namespace transfer
 /// Yield stress of a material without plasticity: finite, so that the return needs no special case.
 inline constexpr Real no_yield = 1e30;
 
+/// J below which a particle leaves its cell's mean dilatation, total formulation (docs/decisions/008).
+inline constexpr Real least_averaged_volume = 0.5;
+
 struct LawConstants
 {
     Real lame = 0;                                              // MPa

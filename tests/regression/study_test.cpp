@@ -174,6 +174,10 @@ TEST_F(Study, a_stopped_chart_goes_on)
     const test::Outcome rest = test::run(chart());
     ASSERT_EQ(rest.exit_code, 0) << rest.output;
     EXPECT_EQ(rest.output.find("[1/5]"), std::string::npos) << rest.output; // what was done is not repeated
+    const test::Outcome summary = test::run({"chart", "--summary", "--from", at("out")});
+    EXPECT_EQ(summary.exit_code, 0);
+    EXPECT_NE(summary.output.find("its order"), std::string::npos) << summary.output;
+    EXPECT_NE(rest.output.find(summary.output), std::string::npos) << rest.output << summary.output;
     const std::vector<io::ChartRow> table = rows();
     EXPECT_EQ(std::count_if(table.begin(), table.end(), [](const auto& row) { return row.status == "done"; }), 5);
 }
@@ -191,6 +195,7 @@ TEST_F(Study, chart_complains_about_what_it_cannot_do)
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.output.find("numbers there: measures.peak_force_N"), std::string::npos) << outcome.output;
     EXPECT_EQ(test::run({"chart", "--advise", at("bar.toml")}).exit_code, 2); // no --error
+    EXPECT_EQ(test::run({"chart", "--summary", "--advise", at("bar.toml")}).exit_code, 2);
     EXPECT_EQ(test::run({"chart", at("suite.toml"), "--scene", "pulled bor", "-o", at("out")}).exit_code, 2);
 }
 

@@ -386,6 +386,18 @@ TEST(Measures, are_read_off_the_history_and_the_ligaments)
     result = measures(problem, history, ligaments);
     EXPECT_EQ(value("c3_force_N"), 5000);
     EXPECT_EQ(result.crack_path, "A-D-C");
+
+    // A column at the rim of C belongs to B-C, too, and breaks first; C-E is the one that is cut.
+    problem.ligaments.push_back({"B", "C", {}, 2});
+    ligaments.emplace_back();
+    begin(4, 2.5, 5500, 4.8);
+    ligaments[4].front = 0.06;
+    ligaments[3].front = 0.3;
+    result = measures(problem, history, ligaments);
+    EXPECT_EQ(value("c3_force_N"), 5000);
+    ligaments[3].front = 0.06; // equal shares: the first
+    result = measures(problem, history, ligaments);
+    EXPECT_EQ(value("c3_force_N"), 5500);
 }
 
 TEST(Measures, of_a_run_without_ligaments_or_history_are_empty)

@@ -113,6 +113,9 @@ void DenseMpm::step(Real dt)
         places.push_back(place_of(total ? p.rest_position : p.position,
                                   uses_boxes(options) ? spacing / (2 * options.per_axis) : 0, origin, spacing));
     const auto averaged = [&](const DensePoint& p) { return materials[p.material].cell_averaged_dilatation; };
+    const auto collapsed = [&](const DensePoint& p, Real volume) {
+        return total && volume < transfer::least_averaged_volume * p.rest_volume;
+    };
 
     // The updated formulation averages the pressure too: the adjoint of averaging the dilatation.
     std::map<Key, std::array<Real, 2>> pressure;
@@ -199,7 +202,7 @@ void DenseMpm::step(Real dt)
             p.volume_ratio *= (1 + half) / (1 - half);
             volume[i] = p.rest_volume * (before + p.volume_ratio) / 2;
         }
-        if (!averaged(p)) continue;
+        if (!averaged(p) || collapsed(p, volume[i])) continue;
         dilatation[places[i].cell][0] += volume[i];
         dilatation[places[i].cell][1] += volume[i] * increment[i].trace();
     }
@@ -207,7 +210,7 @@ void DenseMpm::step(Real dt)
         DensePoint& p = points[i];
         const material::Material& m = materials[p.material];
         Matrix strain = (increment[i] + increment[i].transpose()) / 2;
-        if (averaged(p)) {
+        if (averaged(p) && !collapsed(p, volume[i])) {
             const auto& [cell_volume, sum] = dilatation[places[i].cell];
             strain += (sum / cell_volume - increment[i].trace()) / 3 * Matrix::Identity();
         }

@@ -247,9 +247,13 @@ void update(DenseNodal& mpm, Real dt, int level)
     for (const auto& [key, cell] : mpm.cells) {
         if (level != DenseNodal::all_levels && key[0] != level) continue;
         const Real spacing = mpm.spacing0 / (1 << key[0]);
+        const auto averaged = [&](std::size_t n) {
+            return mpm.laws.constants[points[n].material].averaged_dilatation &&
+                   !(strain[n].volume < transfer::least_averaged_volume * points[n].rest_volume);
+        };
         Real volume = 0, dilated = 0;
         for (const std::size_t n : cell) {
-            if (points[n].crack || !mpm.laws.constants[points[n].material].averaged_dilatation) continue;
+            if (points[n].crack || !averaged(n)) continue;
             volume += strain[n].volume;
             dilated += strain[n].volume * trace(strain[n].increment);
         }
@@ -261,7 +265,7 @@ void update(DenseNodal& mpm, Real dt, int level)
             }
             const transfer::LawConstants& law = mpm.laws.constants[p.material];
             Sym e = core::symmetric_part(strain[n].increment);
-            const Real shift = law.averaged_dilatation ? (dilated / volume - core::trace(e)) / 3 : Real(0);
+            const Real shift = averaged(n) ? (dilated / volume - core::trace(e)) / 3 : Real(0);
             for (int a = 0; a < 3; ++a) e[a] += shift;
             yield(law, strain[n], e, p, mpm);
         }
