@@ -11,8 +11,11 @@ import argparse
 import csv
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
+
+from marked_page import replaced
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FULL = ["c19-dcb", "c22-compact-tension", "c28-challenge"]
@@ -133,12 +136,6 @@ def facts(rows):
             f"suite, {spent[1]:.0f} min in {', '.join(SCENES[scene][0] for scene in FULL)} of the full one.")
 
 
-def replaced(text, mark, table):
-    """`text` with what stands between <!-- mark --> and <!-- end --> exchanged."""
-    head, rest = text.split(f"<!-- {mark} -->", 1)
-    return f"{head}<!-- {mark} -->\n\n{table}\n\n<!-- end -->{rest.split('<!-- end -->', 1)[1]}"
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "results/accuracy")
@@ -153,7 +150,7 @@ def main():
     rows = merge(*directories)
     subprocess.run([ROOT / "tools/plot_chart.py", ROOT / "docs/accuracy.csv", "-o", output / "plots"], check=True)
     for scene in SCENES:
-        (ROOT / "docs/img/accuracy" / f"{scene}.png").write_bytes((output / "plots" / f"{scene}.png").read_bytes())
+        shutil.copyfile(output / "plots" / f"{scene}.png", ROOT / "docs/img/accuracy" / f"{scene}.png")
     summary = summaries(options.cleave)
     page = ROOT / "docs/accuracy.md"
     text = page.read_text()

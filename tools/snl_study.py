@@ -22,6 +22,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
 
+from marked_page import replaced
 from picture_of_run import read_curve, read_frame
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -139,19 +140,32 @@ def smooth(opening, force, width=0.05):
                          for x in at])
 
 
-def force_near(directory, opening):
-    x, f = read_curve(directory)
+def force_near(curve, opening):
+    x, f = curve
     near = np.abs(x - opening) < 0.05
     return float(f[near].mean()) if near.any() else float("nan")
 
 
-def force_before(directory, opening):
+def force_before(curve, opening):
     """Mean over the opening from BEFORE an event to it."""
     if opening is None:
         return None
-    x, f = read_curve(directory)
+    x, f = curve
     inside = (x > opening - BEFORE) & (x <= opening)
     return float(f[inside].mean()) if inside.any() else None
+
+
+def of_group(group, results):
+    return [name for name, variant in VARIANTS.items() if variant.group == group and name in results]
+
+
+def show_plane(axes, x, y, title):
+    """Frame of a picture of the specimen [mm]."""
+    axes.set_xlim(*x)
+    axes.set_ylim(*y)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    axes.set_title(title, fontsize=9)
 
 
 def draw_pattern(axes, directory, time=None, title=None):
@@ -164,11 +178,7 @@ def draw_pattern(axes, directory, time=None, title=None):
     for code, colour in ((1, "tab:red"), (2, "tab:blue"), (3, "tab:green")):
         chosen = broken & (failed[middle] == code)
         axes.scatter(x[chosen], y[chosen], color=colour, s=2.5, linewidths=0)
-    axes.set_xlim(13, 34)
-    axes.set_ylim(-9, 9)
-    axes.set_aspect("equal")
-    axes.set_axis_off()
-    axes.set_title(title or f"t = {at_time:.2f} ms", fontsize=9)
+    show_plane(axes, (13, 34), (-9, 9), title or f"t = {at_time:.2f} ms")
 
 
 def draw_curves(path, results, names, reference):
@@ -222,11 +232,12 @@ def number(value, digits=0):
 def row_of(name, directory):
     record = json.loads((directory / "run.json").read_text())
     measures = record["measures"]
+    curve = read_curve(directory)
     return {"group": VARIANTS[name].group, "variant": name, "case": VARIANTS[name].case, "change": VARIANTS[name].change,
             **{key: measures.get(key) for key in MEASURES},
-            **{f"c{k}_mean_N": force_before(directory, measures.get(f"c{k}_cod_mm")) for k in EVENTS},
-            "crack_path": measures.get("crack_path") or "", "force_at_3mm_N": force_near(directory, 3),
-            "force_at_6mm_N": force_near(directory, 6), "energy_residual": measures.get("energy_residual"),
+            **{f"c{k}_mean_N": force_before(curve, measures.get(f"c{k}_cod_mm")) for k in EVENTS},
+            "crack_path": measures.get("crack_path") or "", "force_at_3mm_N": force_near(curve, 3),
+            "force_at_6mm_N": force_near(curve, 6), "energy_residual": measures.get("energy_residual"),
             "particles": sum(record["particles"]["start"]), "steps": record["steps"], "wall_s": round(record["wall_s"])}
 
 
@@ -242,17 +253,16 @@ def table(rows):
 
 
 def draw_coupon(path, results):
-    if not any(VARIANTS[name].group == "coupon" for name in results):
+    names = of_group("coupon", results)
+    if not names:
         return
     figure, axes = plt.subplots(figsize=(6, 3.8))
-    for name, variant in VARIANTS.items():
-        if variant.group != "coupon" or name not in results:
-            continue
+    for name in names:
         with open(results[name] / "history.csv", newline="") as file:
             rows = list(csv.DictReader(file))
         strain = np.array([float(row["cod_mm"]) for row in rows]) / 12.5
         axes.plot(100 * strain, np.array([float(row["force_upper_N"]) for row in rows]) / (6 * 3.15), linewidth=1.0,
-                  label=f"ends part at {variant.change}")
+                  label=f"ends part at {VARIANTS[name].change}")
     axes.axhline(1100, color="0.6", linewidth=0.8)
     axes.set_xlabel("engineering strain over 25 mm [%]")
     axes.set_ylabel("engineering stress [MPa]")
@@ -266,7 +276,7 @@ def draw_coupon(path, results):
 
 def draw_levels(path, results):
     """Cells of the first frame that have material at the middle plane, one grey per size."""
-    names = [name for name, variant in VARIANTS.items() if variant.group == "levels" and name in results]
+    names = of_group("levels", results)
     if not names:
         return
     figure, axes = plt.subplots(1, len(names), figsize=(4.2 * len(names), 4.2), squeeze=False)
@@ -278,12 +288,8 @@ def draw_levels(path, results):
             lower = np.unique(np.floor(points[inside, :2] / cell), axis=0) * cell
             corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * cell
             one.add_collection(PolyCollection(lower[:, None, :] + corners, facecolor=grey, edgecolor="0.3", linewidth=0.12))
-        one.set_xlim(-0.5, 32.5)
-        one.set_ylim(-16.5, 16.5)
-        one.set_aspect("equal")
-        one.set_axis_off()
         particles = f"{len(points):,}".replace(",", " ")
-        one.set_title(f"{VARIANTS[name].change}: {particles} particles", fontsize=9)
+        show_plane(one, (-0.5, 32.5), (-16.5, 16.5), f"{VARIANTS[name].change}: {particles} particles")
     figure.tight_layout()
     figure.savefig(path, dpi=130)
     plt.close(figure)
@@ -297,7 +303,7 @@ def largest_principal(stress):
 
 def draw_stress(path, results):
     """Largest principal stress without fracture, last frame, one layer of points at the middle plane."""
-    names = [name for name, variant in VARIANTS.items() if variant.group == "field" and name in results]
+    names = of_group("field", results)
     if not names:
         return
     figure, axes = plt.subplots(1, len(names), figsize=(5 * len(names), 4), squeeze=False)
@@ -306,11 +312,7 @@ def draw_stress(path, results):
         middle = points[:, 2] < points[:, 2].min() + side.max() / 2
         stress = largest_principal(data["stress"][middle])
         shown = one.scatter(points[middle, 0], points[middle, 1], c=stress, s=5, cmap="viridis", vmin=0, vmax=4900, linewidths=0)
-        one.set_xlim(15, 26)
-        one.set_ylim(-5, 8)
-        one.set_aspect("equal")
-        one.set_axis_off()
-        one.set_title(f"{VARIANTS[name].change}: at most {stress.max():.0f} MPa", fontsize=9)
+        show_plane(one, (15, 26), (-5, 8), f"{VARIANTS[name].change}: at most {stress.max():.0f} MPa")
         figure.colorbar(shown, ax=one, shrink=0.7, label="largest principal stress [MPa]")
     figure.tight_layout()
     figure.savefig(path, dpi=70)
@@ -371,12 +373,6 @@ def table_one(rows, reference):
     paths = ["A-D-C-E", "A-D-C-E"] + [numbers.get("crack_path") or "–" for _, numbers in columns[2:]]
     lines.append("| cut through | " + " | ".join(paths) + " |")
     return "\n".join(lines)
-
-
-def replaced(text, mark, table):
-    """`text` with what stands between <!-- mark --> and <!-- end --> exchanged."""
-    head, rest = text.split(f"<!-- {mark} -->", 1)
-    return f"{head}<!-- {mark} -->\n\n{table}\n\n<!-- end -->{rest.split('<!-- end -->', 1)[1]}"
 
 
 def write_page(results, reference):
