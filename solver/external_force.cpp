@@ -23,7 +23,8 @@ void add_at(const transfer::CellFrame& frame, const Vec3& point, const Vec3& for
                           [&](int node, Real weight) { tile[node] += weight * force; });
 }
 
-/// Body force and surface forces of every particle to the tiles of `derived.external`.
+/// Body force and surface forces of every particle to the tiles of `derived.external`, which are zeroed first where
+/// there is one.
 void gather_forces(const Problem& problem, const State& state, Derived& derived)
 {
     const particles::Particles& particles = state.particles;
@@ -35,14 +36,19 @@ void gather_forces(const Problem& problem, const State& state, Derived& derived)
     const SurfaceForces& surface = derived.surface;
     transfer::for_each_in_cell(
         state.strays, particles, state.levels, [&](std::size_t leaf, const transfer::CellFrame& frame, std::size_t p) {
+            const auto motion = problem.bodies[particles.body[p]].body_force;
+            const bool pushed = !surface.start.empty() && surface.start[p] != surface.start[p + 1];
+            if (!motion && !pushed) return;
             Vec3* tile = derived.external.data() + leaf * grid::tile_nodes;
+            if (!derived.pushed[leaf]) std::fill_n(tile, grid::tile_nodes, Vec3::Zero());
+            derived.pushed[leaf] = 1;
             const Vec3 x = vector_at(position, p);
-            if (const auto motion = problem.bodies[particles.body[p]].body_force) {
+            if (motion) {
                 const Vec3 rest = vector_at(particles.rest_position, p);
                 const Vec3 pull = at(problem.motions[static_cast<std::size_t>(*motion)], rest, time).body_force;
                 add_at(frame, x, particles.mass[p] * pull, tile);
             }
-            if (surface.start.empty()) return;
+            if (!pushed) return;
             for (std::uint32_t f = surface.start[p]; f < surface.start[p + 1]; ++f) {
                 const FaceForce& face = surface.face[f];
                 add_at(frame, x + face.offset, ramp[static_cast<std::size_t>(face.load)] * face.force, tile);
@@ -100,15 +106,17 @@ void add_external_forces(const Problem& problem, State& state, Derived& derived)
 {
     if (!has_external_forces(problem)) return;
     const std::size_t leaves = state.levels.leaves.size();
-    derived.external.assign(leaves * grid::tile_nodes, Vec3::Zero());
+    derived.external.resize(leaves * grid::tile_nodes);
+    derived.pushed.assign(leaves, 0);
     gather_forces(problem, state, derived);
     const bool on_forces = nodal(problem);
     core::parallel_for(leaves, [&](std::size_t n) {
+        if (!derived.pushed[n]) return;
         const Vec3* tile = derived.external.data() + n * grid::tile_nodes;
-        for (int i = 0; i < grid::tile_nodes; ++i) {
+        grid::for_nodes(state.levels.used[n], grid::leaf_side, [&](int i) {
             auto& force = on_forces ? state.levels.forces(n)[i].force : state.levels.sums(n)[i].force;
             for (std::size_t a = 0; a < 3; ++a) force[a] += tile[i][static_cast<int>(a)];
-        }
+        });
     });
 }
 
@@ -116,18 +124,19 @@ void add_external_work(const Problem& problem, const Derived& derived, State& st
 {
     if (!has_external_forces(problem)) return;
     const bool twice = nodal(problem);
-    state.source_work += state.clock.dt * sum_over_leaves(state.levels.leaves.size(), [&](std::size_t n) {
-                             const Vec3* tile = derived.external.data() + n * grid::tile_nodes;
-                             Real power = 0;
-                             for (int i = 0; i < grid::tile_nodes; ++i) {
-                                 const grid::NodeMotion& motion = state.levels.motions(n)[i];
-                                 for (std::size_t a = 0; a < 3; ++a)
-                                     power +=
-                                         tile[i][static_cast<int>(a)] *
-                                         (twice ? motion.velocity[a] / 2 : motion.velocity[a] - motion.change[a] / 2);
-                             }
-                             return power;
-                         });
+    const Real power = sum_over_leaves(state.levels.leaves.size(), [&](std::size_t n) {
+        Real sum = 0;
+        if (!derived.pushed[n]) return sum;
+        const Vec3* tile = derived.external.data() + n * grid::tile_nodes;
+        const grid::NodeMotion* motion = state.levels.motions(n);
+        grid::for_nodes(state.levels.used[n], grid::leaf_side, [&](int i) {
+            for (std::size_t a = 0; a < 3; ++a)
+                sum += tile[i][static_cast<int>(a)] *
+                       (twice ? motion[i].velocity[a] / 2 : motion[i].velocity[a] - motion[i].change[a] / 2);
+        });
+        return sum;
+    });
+    state.source_work += state.clock.dt * power;
 }
 
 void add_damped_work(const Problem& problem, const Derived& derived, State& state)
@@ -135,7 +144,7 @@ void add_damped_work(const Problem& problem, const Derived& derived, State& stat
     if (problem.numerics.damping == 0) return;
     Real sum = sum_over_leaves(state.levels.leaves.size(), [&](std::size_t n) {
         Real energy = 0;
-        grid::for_owned_nodes([&](int node) {
+        grid::for_nodes(state.levels.used[n], grid::leaf_side - 1, [&](int node) {
             const Damped damped = damped_at(problem, state, n, node);
             for (const Real v : damped.velocity) energy += damped.mass * v * v;
         });

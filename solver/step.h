@@ -20,7 +20,8 @@ struct Derived
     std::vector<std::uint32_t> gauge_upper, gauge_lower; // present places of the gauge particles
     LigamentMap ligaments;
     SurfaceForces surface;
-    std::vector<Vec3> external; // [leaf][729] N, scratch: forces of this step that are not internal
+    std::vector<Vec3> external;       // [leaf][729] N, scratch: forces of this step that are not internal
+    std::vector<std::uint8_t> pushed; // [leaf] 1: it has some; else its tile of `external` says nothing
     transfer::NonlocalTable nonlocal;
     grid::FastNodes fast_nodes; // sub-cycling only
 };

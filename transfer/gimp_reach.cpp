@@ -214,6 +214,12 @@ Line line_of(const grid::NodeSum& node)
 {
     return Line::load(&node.mass);
 }
+
+bool holds_something(const grid::NodeSum& node)
+{
+    constexpr std::array<Real, 3> zero{};
+    return node.mass != 0 || node.momentum != zero || node.force != zero;
+}
 } // namespace
 
 void map_reach(const PassOptions& options, const grid::Levels& levels, std::size_t leaf, ReachMap& map)
@@ -273,21 +279,26 @@ void clear(const ReachMap& map, ReachTile<grid::NodeSum>& tile)
 
 namespace
 {
-/// Node (i, j, k) of the tile; zero where the map does not go.
+/// The nodes of the tile that may have mass; zero where the map does not go.
 template <class Put>
-void put_own(const ReachMap& map, const ReachTile<grid::NodeSum>& tile, grid::NodeSum* sums, const Put& put)
+void put_own(const ReachMap& map, const grid::NodeBox& used, const ReachTile<grid::NodeSum>& tile, grid::NodeSum* sums,
+             const Put& put)
 {
     const auto touched = [&](int index, std::size_t a) {
         return index >= map.box.first[a] && index < map.box.last[a] + 2;
     };
-    const int first = std::max(0, map.box.first[2]), end = std::min(grid::tile_side, map.box.last[2] + 2);
     const grid::NodeSum nothing{};
-    for (int i = 0; i < grid::tile_side; ++i)
-        for (int j = 0; j < grid::tile_side; ++j) {
+    const int first = used.lower[2], end = used.upper[2] + 1;
+    const int from_here = std::max(first, map.box.first[2]), to_here = std::min(end, map.box.last[2] + 2);
+    for (int i = used.lower[0]; i <= used.upper[0]; ++i)
+        for (int j = used.lower[1]; j <= used.upper[1]; ++j) {
             grid::NodeSum* to = sums + grid::tile_index(i, j, 0);
-            const bool row = touched(i, 0) && touched(j, 1);
             const grid::NodeSum* from = tile.node + reach_index(i, j, 0);
-            for (int k = 0; k < grid::tile_side; ++k) put(to[k], row && k >= first && k < end ? from[k] : nothing);
+            const bool row = touched(i, 0) && touched(j, 1);
+            const int begin = row ? from_here : end, stop = row ? to_here : end;
+            for (int k = first; k < begin; ++k) put(to[k], nothing);
+            for (int k = begin; k < stop; ++k) put(to[k], from[k]);
+            for (int k = stop; k < end; ++k) put(to[k], nothing);
         }
 }
 } // namespace
@@ -305,10 +316,11 @@ void write_sums(BoxGive give, std::size_t leaf, const ReachMap& map, ReachTile<g
             tile.node[place] = {};
         });
     }
+    const grid::NodeBox& used = levels.used[leaf];
     if (give == BoxGive::all)
-        put_own(map, tile, levels.sums(leaf), [](grid::NodeSum& to, const grid::NodeSum& from) { to = from; });
+        put_own(map, used, tile, levels.sums(leaf), [](grid::NodeSum& to, const grid::NodeSum& from) { to = from; });
     else
-        put_own(map, tile, levels.sums(leaf),
+        put_own(map, used, tile, levels.sums(leaf),
                 [](grid::NodeSum& to, const grid::NodeSum& from) { to.momentum = from.momentum; });
     boxes.reached[leaf] = 0;
     if (map.box.empty()) return;
@@ -319,19 +331,20 @@ void write_sums(BoxGive give, std::size_t leaf, const ReachMap& map, ReachTile<g
         const Direction towards = direction(d);
         const Layers x = layers(towards.step[0]), y = layers(towards.step[1]), z = layers(towards.step[2]);
         grid::NodeSum* to = skin + skin_start[static_cast<std::size_t>(d)];
-        std::fill_n(to, nodes_towards(d), grid::NodeSum{});
-        Line any(Real(0));
+        bool any = false;
+        int touched = 0;
         for_rows(map, d, [&](int i, int j, int k, int length) {
             const grid::NodeSum* from = tile.node + reach_index(i, j, k);
-            grid::NodeSum* row =
-                to + ((i - x.begin) * (y.end - y.begin) + j - y.begin) * (z.end - z.begin) + k - z.begin;
-            for (int n = 0; n < length; ++n) {
-                const Line line = line_of(from[n]);
-                any = core::select((line < Line(Real(0))) | (line > Line(Real(0))), Line(Real(1)), any);
-                line.store(&row[n].mass);
-            }
+            for (int n = 0; n < length && !any; ++n) any = holds_something(from[n]);
+            touched += length;
         });
-        if (core::sum(any) > 0) reached |= 1U << d;
+        if (!any) continue; // nobody reads the skin there
+        reached |= 1U << d;
+        if (touched < nodes_towards(d)) std::fill_n(to, nodes_towards(d), grid::NodeSum{});
+        for_rows(map, d, [&](int i, int j, int k, int length) {
+            std::copy_n(tile.node + reach_index(i, j, k), length,
+                        to + ((i - x.begin) * (y.end - y.begin) + j - y.begin) * (z.end - z.begin) + k - z.begin);
+        });
     }
     boxes.reached[leaf] = reached;
 }
