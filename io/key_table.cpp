@@ -304,9 +304,10 @@ constexpr Key keys[] = {
     Key{"numerics",
         "precision",
         choice,
-        defaulted,
-        "\"f64\"",
-        "arithmetic of the particles: double, or single with nodes in double (mixed; transfer = nodal only)",
+        optional,
+        "",
+        "arithmetic of the particles: single with nodes in double (mixed, the default of transfer = nodal and only "
+        "there), or double (f64, default else)",
         {},
         finite,
         "f64|mixed"},

@@ -351,14 +351,21 @@ TEST_F(Case, default_transfer_is_nodal_on_the_lattice_of_the_total_formulation)
     EXPECT_EQ(transfer({"numerics.transfer=apic"}), apic);
 }
 
-TEST_F(Case, precision_of_particles_is_double_unless_asked)
+// Decision 028.
+TEST_F(Case, default_precision_is_mixed_where_motion_is_on_the_nodes)
 {
-    EXPECT_EQ(io::read_case(write(valid_case)).numerics.precision, solver::Precision::f64);
-    EXPECT_EQ(io::read_case(write(valid_case), {"numerics.precision=mixed"}).numerics.precision,
-              solver::Precision::mixed);
-    const std::string resolved = io::resolved_toml(write(valid_case), {"numerics.precision=mixed"});
-    EXPECT_NE(resolved.find("transfer = \"nodal\""), std::string::npos);
-    EXPECT_EQ(io::read_case(write(resolved)).numerics.precision, solver::Precision::mixed);
+    const auto precision = [&](const std::vector<std::string>& overrides) {
+        return io::read_case(write(valid_case), overrides).numerics.precision;
+    };
+    using enum solver::Precision;
+    EXPECT_EQ(precision({}), mixed);
+    EXPECT_EQ(precision({"numerics.precision=f64"}), f64);
+    EXPECT_EQ(precision({"numerics.transfer=flip"}), f64);
+    EXPECT_EQ(precision({"numerics.formulation=updated"}), f64);
+    EXPECT_EQ(precision({"grid.particles_per_cell=27"}), f64);
+    const std::string resolved = io::resolved_toml(write(valid_case));
+    EXPECT_NE(resolved.find("precision = \"mixed\""), std::string::npos);
+    EXPECT_EQ(io::read_case(write(resolved)).numerics.precision, mixed);
 }
 
 TEST_F(Case, shear_strength_of_tension_bars)

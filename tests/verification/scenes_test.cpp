@@ -21,7 +21,7 @@ struct Row
     Real least_ratio;                          // of both, from one resolution to the next
 };
 
-const Overrides nodal{}, mixed{"numerics.precision=mixed"}, flip{"numerics.transfer=flip"},
+const Overrides nodal{"numerics.precision=f64"}, mixed{}, flip{"numerics.transfer=flip"},
     apic{"numerics.transfer=apic"}, gimp{"numerics.formulation=updated", "numerics.basis=gimp"},
     gimp_apic{"numerics.formulation=updated", "numerics.basis=gimp", "numerics.transfer=apic"},
     updated{"numerics.formulation=updated"};
