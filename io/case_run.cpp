@@ -62,9 +62,8 @@ void read_numerics(Draft& draft)
                          draft.problem.grid.particles_per_cell == 8;
     numerics.transfer = section.choice("transfer", lattice && numerics.pic_fraction == 0 ? solver::Transfer::nodal
                                                                                          : solver::Transfer::flip);
-    numerics.precision = section.choice("precision", numerics.transfer == solver::Transfer::nodal
-                                                         ? solver::Precision::mixed
-                                                         : solver::Precision::f64);
+    numerics.precision = section.choice(
+        "precision", numerics.transfer == solver::Transfer::nodal ? solver::Precision::mixed : solver::Precision::f64);
     if (numerics.precision == solver::Precision::mixed && numerics.transfer != solver::Transfer::nodal)
         section.error("precision", "precision = \"mixed\" needs transfer = \"nodal\"");
     numerics.subcycling = section.boolean("subcycling");
