@@ -159,7 +159,7 @@ TEST_F(Study, a_stopped_chart_goes_on)
     slow.replace(slow.find("cell = 1"), 8, "cell = 0.2");
     write("bar.toml", slow);
     std::string patient = suite;
-    patient.replace(patient.find("1 s"), 3, "9 s");
+    patient.replace(patient.find("1 s"), 3, "60 s");
     patient.replace(patient.find(", [\"too much\"]"), 14, "");
     write("suite.toml", patient);
     const fs::path log = directory_ / "log";

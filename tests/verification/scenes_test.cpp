@@ -151,7 +151,7 @@ TEST(Scenes, c19_cantilever_beam_splits_at_the_force_of_its_fracture_energy)
 {
     const support::Results results = support::results_of("verification/c19-dcb/case.toml", {});
     EXPECT_NEAR(results.at("force") / 27.683, 1, 0.05);
-    EXPECT_NEAR(results.at("force_end") / 26.074, 1, 0.05);
+    EXPECT_NEAR(results.at("force_end") / 26.568, 1, 0.05);
     EXPECT_NEAR(results.at("energy_per_area") / 0.5, 1, 0.05);
 }
 
