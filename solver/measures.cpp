@@ -27,9 +27,10 @@ std::vector<std::size_t> initiations(const Problem& problem, const std::vector<L
         const bool continues =
             (is_end(ligament.from) && !is_visited(ligament.to)) || (is_end(ligament.to) && !is_visited(ligament.from));
         if (!continues || states[i].first_time < 0) continue;
-        // Where holes lie close, a column at the rim of one belongs to more than one ligament.
-        const auto later = [&](std::size_t n) { return std::pair(-states[n].front, states[n].first_time); };
-        if (!next || later(i) < later(*next)) next = i;
+        // Where holes lie close, a column at the rim of one belongs to more than one ligament: the one cut furthest
+        // counts.
+        const auto rank = [&](std::size_t n) { return std::pair(-states[n].front, states[n].first_time); };
+        if (!next || rank(i) < rank(*next)) next = i;
     }
     if (next) events.push_back(*next);
     std::stable_sort(events.begin(), events.end(),
