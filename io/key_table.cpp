@@ -163,8 +163,8 @@ constexpr Key keys[] = {
     Key{"material.decohesion", "smoothed_onset", boolean, optional, "",
         "test the onset on the cell mean of the stress; default true, preset paper: false"},
     Key{"material.decohesion", "nonlocal_radius", real, defaulted, "0",
-        "test the onset on the mean stress of a ball of this radius (where a crack arrives also on the cell's own); 0: "
-        "off",
+        "test the onset on the mean stress of a ball of this radius (where a crack arrives also on that of the metal "
+        "ahead, as far); 0: off",
         dim::length, non_negative},
     Key{"material.decohesion", "crack_exclusion", real, optional, "",
         "with a ball: no second plane this close beside a parallel one; default nonlocal_radius, 0: no rule",

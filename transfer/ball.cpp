@@ -116,6 +116,30 @@ Ball ball_of_cell(const grid::Levels& levels, const particles::Particles& partic
     return ball;
 }
 
+Ball ball_ahead(const PassOptions& options, const grid::Levels& levels, const particles::Particles& particles,
+                const OccupiedCell& cell, std::uint8_t material, const Vec3& way, Real length)
+{
+    Ball ball = ball_of_cell(levels, particles, cell.slot, material);
+    const Real half = levels.spacing(cell.level) / 2, end = length - half;
+    if (end <= half) return ball;
+    const bool total = options.formulation == Formulation::total;
+    const auto& position = total ? particles.rest_position : particles.position;
+    const Vec3 centre = centre_of(levels, cell);
+    for (const OccupiedCell& other : cells_near(levels, centre, end, total ? 0 : 1)) {
+        if (other.slot == cell.slot) continue;
+        for (std::uint32_t p = levels.cell_start[other.slot]; p < levels.cell_start[other.slot + 1]; ++p) {
+            if (particles.material[p] != material) continue;
+            const Vec3 offset = Vec3(position[0][p], position[1][p], position[2][p]) - centre;
+            const Real along = offset.dot(way);
+            if (along <= 0 || along > end || (offset - along * way).squaredNorm() > half * half) continue;
+            ball.particle.push_back(p);
+            ball.turned.push_back(0);
+            ball.weight.push_back(particles.rest_volume[p]);
+        }
+    }
+    return ball;
+}
+
 Ball ball_about(const PassOptions& options, const grid::Levels& levels, const particles::Particles& particles,
                 const OccupiedCell& cell, std::uint8_t material, Real radius)
 {

@@ -52,6 +52,12 @@ Ball ball_about(const PassOptions& options, const grid::Levels& levels, const pa
 Ball ball_of_cell(const grid::Levels& levels, const particles::Particles& particles, std::size_t slot,
                   std::uint8_t material);
 
+/// The particles of one material in a cell and ahead of it: as far as `length` from the cell's back along the unit
+/// vector `way`, and no further than half a cell from the line through its centre. In a cell of `length` or more that
+/// cell alone. Weights: rest volumes [mm^3].
+Ball ball_ahead(const PassOptions& options, const grid::Levels& levels, const particles::Particles& particles,
+                const OccupiedCell& cell, std::uint8_t material, const Vec3& way, Real length);
+
 /// Mean of `stress_at(particle)` over the particles of the ball for which `counts(particle)` [MPa]; zero if none does.
 template <class StressAt, class Counts>
 core::Sym<Real> mean_stress(const Ball& ball, const StressAt& stress_at, const Counts& counts)

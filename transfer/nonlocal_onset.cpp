@@ -238,35 +238,53 @@ core::Sym<Real> ball_mean(const View& view, const particles::Particles& particle
     return mean_of(view, particles, ball_of(view, particles, candidate));
 }
 
-/// A neighbouring cell has a crack that leads here: its plane is less than 45 degrees off the way to this cell.
-bool continues_a_crack(const View& view, const particles::Particles& particles, std::size_t slot)
+/// Unit vectors at rest along which cracks of neighbouring cells lead here: in their planes, which are less than 45
+/// degrees off the way to this cell.
+std::vector<Vec3> arriving_cracks(const View& view, const particles::Particles& particles, std::size_t slot)
 {
     const Real spacing = view.levels.spacing(view.levels.leaves[slot / grid::leaf_cells].level);
     const Real beside = Real(1.6) * spacing; // a coarser neighbour's centre is at 1.5
     const core::Mat<Real> deformation = motion_of(view, particles, slot).deformation;
+    std::vector<Vec3> ways;
     for (const Neighbour& other : cracks_near(view, particles, slot, beside)) {
         if (other.offset.cwiseAbs().maxCoeff() > beside) continue;
-        const Real across = std::abs(other.offset.dot(at_rest(deformation, other.crack->normal)));
-        if (2 * across * across <= (1 + rounding) * other.offset.squaredNorm()) return true;
+        const Vec3 normal = at_rest(deformation, other.crack->normal);
+        const Real across = other.offset.dot(normal);
+        if (2 * across * across <= (1 + rounding) * other.offset.squaredNorm())
+            ways.push_back((other.offset - across * normal).normalized());
     }
-    return false;
+    return ways;
 }
 
-/// Stress to test: the mean of the ball; where a crack arrives or the cell is overloaded its own, if that exceeds the
-/// criterion further.
+/// Stress to test: the mean of the ball. An overloaded cell is tested on its own mean; where a crack arrives, on that
+/// of the metal that the crack would cut next, if both this and its own mean exceed the criterion further than the
+/// ball's.
 void choose_tested(const View& view, const particles::Particles& particles, Candidate& candidate)
 {
     const material::Decohesion& law = *nonlocal_law(view.laws, candidate.material);
     candidate.tested = ball_mean(view, particles, candidate);
     candidate.excess = excess_of(law, candidate.tested);
+    const OccupiedCell cell = occupied_cell(view.levels, candidate.slot);
     const core::Sym<Real> own =
         mean_of(view, particles, ball_of_cell(view.levels, particles, candidate.slot, candidate.material));
     const Real own_excess = excess_of(law, own);
     candidate.overloaded = own_excess > overload;
     if (own_excess <= std::max(Real(1), candidate.excess)) return;
-    if (!candidate.overloaded && !continues_a_crack(view, particles, candidate.slot)) return;
-    candidate.tested = own;
-    candidate.excess = own_excess;
+    const auto test = [&](const core::Sym<Real>& stress, Real excess) {
+        if (excess <= candidate.excess) return;
+        candidate.tested = stress;
+        candidate.excess = excess;
+    };
+    if (candidate.overloaded) {
+        test(own, own_excess);
+        return;
+    }
+    for (const Vec3& way : arriving_cracks(view, particles, candidate.slot)) {
+        const core::Sym<Real> ahead = mean_of(
+            view, particles,
+            ball_ahead(view.options, view.levels, particles, cell, candidate.material, way, law.nonlocal_radius));
+        test(ahead, excess_of(law, ahead));
+    }
 }
 
 /// Cracks of the cell's intact particles, empty if a neighbour forbids them.

@@ -5,8 +5,9 @@
 /// change with the cells converges. A cell starts as a whole, when
 ///   1. one of its own intact particles is near a strength (material::may_start), and
 ///   2. the mean over the ball about its centre meets the criterion; or, where the crack of a neighbouring cell leads
-///      into it (the way there is less than 45 degrees off the crack's plane), the mean of the cell's own particles; or
-///      that mean exceeds the criterion by a quarter (`overload`).
+///      into it (the way there is less than 45 degrees off the crack's plane), the mean of the cell's own particles and
+///      that of the metal which the crack would cut next, of the length of the ball's radius (docs/decisions/029); or
+///      the cell's mean exceeds the criterion by a quarter (`overload`).
 /// Only intact particles count in the means. Why the second way: around the end of a crack the ball is full of flanks
 /// that carry nothing any more, the finer the cells the more of them, so its mean says little about the metal ahead;
 /// bridges between pieces of a crack would never break. What a crack needs to go on is its energy, which the law asks

@@ -197,9 +197,10 @@ struct CrackedCell
     Real stress = 0; // MPa, shear on its plane
 };
 
-/// Particles that start where one cell carries shear beyond the strength of 1 MPa, all around it a fifth.
+/// Particles that start where a row of cells along x, the first of them cell 0, carries shear beyond the strength of 1
+/// MPa, all around it a fifth.
 /// @param load  MPa
-std::size_t started(Real radius, const std::optional<CrackedCell>& cracked, Real load = 1.2)
+std::size_t started(Real radius, const std::optional<CrackedCell>& cracked, Real load = 1.2, int row = 1)
 {
     material::Material metal = support::soft_elastic();
     metal.decohesion.emplace();
@@ -218,8 +219,9 @@ std::size_t started(Real radius, const std::optional<CrackedCell>& cracked, Real
     };
     put_stress([](std::size_t n, const Vec3&) { return n == 3 ? 0.2 : 0.0; }, scene);
     for (std::size_t p = 0; p < scene.particles.size(); ++p) {
-        if (cell_of(p) == Index3(0, 0, 0)) scene.particles.stress[3][p] = load;
-        if (!cracked || cell_of(p) != cracked->cell) continue;
+        const Index3 cell = cell_of(p);
+        if (cell[0] >= 0 && cell[0] < row && cell[1] == 0 && cell[2] == 0) scene.particles.stress[3][p] = load;
+        if (!cracked || cell != cracked->cell) continue;
         core::Crack crack;
         crack.normal = {0, 1, 0};
         crack.damage = cracked->damage;
@@ -235,17 +237,39 @@ std::size_t started(Real radius, const std::optional<CrackedCell>& cracked, Real
 }
 } // namespace
 
-// The mean of the ball never starts the loaded cell. A crack that arrives does, one that passes beside it does not.
-TEST(Nonlocal, where_a_crack_arrives_the_cell_itself_decides)
+// The mean of the ball never starts the loaded cell. A crack that arrives does, if what it would cut next is loaded as
+// well; flanks do not count. One that passes beside it does not.
+TEST(Nonlocal, where_a_crack_arrives_the_metal_ahead_decides)
 {
-    const auto started = [](const std::optional<Index3>& cracked) {
-        return ::started(1.1, cracked ? std::optional(CrackedCell{*cracked}) : std::nullopt);
+    const auto started = [](const std::optional<Index3>& cracked, int row) {
+        return ::started(1.1, cracked ? std::optional(CrackedCell{*cracked}) : std::nullopt, 1.2, row);
     };
-    EXPECT_EQ(started({}), 0U);
-    EXPECT_EQ(started(Index3(-1, 0, 0)), 8U);  // straight on
-    EXPECT_EQ(started(Index3(-1, -1, 0)), 8U); // a kink
-    EXPECT_EQ(started(Index3(0, -1, 0)), 0U);  // at its flank
-    EXPECT_EQ(started(Index3(-2, 0, 0)), 0U);  // not there yet
+    EXPECT_EQ(started({}, 2), 0U);
+    EXPECT_EQ(started(Index3(-1, 0, 0), 2), 8U);  // straight on
+    EXPECT_EQ(started(Index3(-1, 0, 0), 1), 0U);  // into metal that carries little
+    EXPECT_EQ(started(Index3(-1, -1, 0), 2), 8U); // a kink
+    EXPECT_EQ(started(Index3(0, -1, 0), 2), 0U);  // at its flank
+    EXPECT_EQ(started(Index3(-2, 0, 0), 2), 0U);  // not there yet
+}
+
+TEST(Nonlocal, metal_ahead_of_a_crack_is_as_long_whatever_the_cells)
+{
+    const Scene scene = block({}, everything); // cells of 0.5 mm, particles at their quarters
+    const auto ahead = [&](const Vec3& way, Real length) {
+        const auto slot = static_cast<std::size_t>(grid::active_slot(scene.levels, 0, {0, 0, 0}));
+        return transfer::ball_ahead(scene.options, scene.levels, scene.particles,
+                                    transfer::occupied_cell(scene.levels, slot), 0, way, length);
+    };
+    EXPECT_EQ(ahead({1, 0, 0}, 0.5).particle.size(), 8U);
+    EXPECT_EQ(ahead({1, 0, 0}, 0.75).particle.size(), 12U);
+    EXPECT_EQ(ahead({1, 0, 0}, 1.1).particle.size(), 16U);
+    EXPECT_EQ(ahead({0, -1, 0}, 1.5).particle.size(), 24U);
+    const transfer::Ball ball = ahead({1, 0, 0}, 1.1);
+    for (const std::uint32_t p : ball.particle) {
+        const Vec3 place = support::vector_of(scene.particles.rest_position, p) - scene.levels.origin;
+        EXPECT_TRUE(place[0] > 0 && place[0] < 1 && place[1] > 0 && place[1] < 0.5 && place[2] > 0 && place[2] < 0.5);
+    }
+    EXPECT_EQ(ahead(Vec3(1, 1, 0).normalized(), 1.1).particle.size(), 18U);
 }
 
 // A crack beside the loaded cell forbids another one while it carries what is left of its strength.
