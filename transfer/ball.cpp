@@ -44,6 +44,13 @@ std::vector<Real> planes_of(const PassOptions& options, const grid::Levels& leve
     return planes;
 }
 
+void add(std::uint32_t particle, std::uint8_t turned, Real weight, Ball& ball)
+{
+    ball.particle.push_back(particle);
+    ball.turned.push_back(turned);
+    ball.weight.push_back(weight);
+}
+
 /// Add what the ball about `centre`, a place in the mirrors `turned`, holds; weights not yet normalised.
 void collect(const PassOptions& options, const grid::Levels& levels, const particles::Particles& particles,
              const Vec3& centre, std::uint8_t turned, std::uint8_t material, Real radius, Ball& ball)
@@ -61,9 +68,7 @@ void collect(const PassOptions& options, const grid::Levels& levels, const parti
             }
             const Real left = 1 - square / (radius * radius);
             if (left <= 0) continue;
-            ball.particle.push_back(p);
-            ball.turned.push_back(turned);
-            ball.weight.push_back(particles.rest_volume[p] * left * left);
+            add(p, turned, particles.rest_volume[p] * left * left, ball);
         }
 }
 } // namespace
@@ -109,9 +114,7 @@ Ball ball_of_cell(const grid::Levels& levels, const particles::Particles& partic
     Ball ball;
     for (std::uint32_t p = levels.cell_start[slot]; p < levels.cell_start[slot + 1]; ++p) {
         if (particles.material[p] != material) continue;
-        ball.particle.push_back(p);
-        ball.turned.push_back(0);
-        ball.weight.push_back(particles.rest_volume[p]);
+        add(p, 0, particles.rest_volume[p], ball);
     }
     return ball;
 }
@@ -132,9 +135,7 @@ Ball ball_ahead(const PassOptions& options, const grid::Levels& levels, const pa
             const Vec3 offset = Vec3(position[0][p], position[1][p], position[2][p]) - centre;
             const Real along = offset.dot(way);
             if (along <= 0 || along > end || (offset - along * way).squaredNorm() > half * half) continue;
-            ball.particle.push_back(p);
-            ball.turned.push_back(0);
-            ball.weight.push_back(particles.rest_volume[p]);
+            add(p, 0, particles.rest_volume[p], ball);
         }
     }
     return ball;
