@@ -2,7 +2,6 @@
 
 #include "app/exit_code.h"
 #include "app/forecast.h"
-#include "app/stop_request.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/case.h"
@@ -240,7 +239,6 @@ PoolEnd run_study(const StudyOptions& options, std::vector<StudyRun>& runs)
         io::write_job_record(record_path(run), *run.record);
         progress.ended(job);
     };
-    catch_stop_signals();
     return run_jobs(jobs, options.jobs, options.walltime, events);
 }
 } // namespace app
