@@ -48,7 +48,7 @@ FINER = {
     "c10-hole": "within 1.9 radii of the centre of the hole, of a plate of 5 by 5",
     "c10-stress": "the same",
     "c14-strip": "within 1.9 half widths of the ligament",
-    "c19-dcb": "within 1 mm of the crack's plane, of an arm of 5 mm (both with cells of 0.25 mm there: 1.6 % of error for 115 s, uniform 1.7 % for 408 s)",
+    "c19-dcb": "within 1 mm of the crack's plane, of an arm of 5 mm",
     "c20-crack": "within 1 mm of the tip, of 10 x 2 mm",
     "c28-challenge": "along the ligaments, a tenth of the plate",
 }

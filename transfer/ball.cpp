@@ -51,25 +51,32 @@ void add(std::uint32_t particle, std::uint8_t turned, Real weight, Ball& ball)
     ball.weight.push_back(weight);
 }
 
-/// Add what the ball about `centre`, a place in the mirrors `turned`, holds; weights not yet normalised.
-void collect(const PassOptions& options, const grid::Levels& levels, const particles::Particles& particles,
-             const Vec3& centre, std::uint8_t turned, std::uint8_t material, Real radius, Ball& ball)
+/// `visit(particle, offset, slot)` for the particles of one material in the cells within `reach` of a point: their
+/// places from it [mm], where the formulation takes its weights, and the cells that store them.
+template <class Visit>
+void for_particles_near(const PassOptions& options, const grid::Levels& levels, const particles::Particles& particles,
+                        const Vec3& point, Real reach, std::uint8_t material, const Visit& visit)
 {
     const bool total = options.formulation == Formulation::total;
     const auto& position = total ? particles.rest_position : particles.position;
     // In the updated formulation a particle may be up to a cell away from the one that stores it.
-    for (const OccupiedCell& cell : cells_near(levels, centre, radius, total ? 0 : 1))
-        for (std::uint32_t p = levels.cell_start[cell.slot]; p < levels.cell_start[cell.slot + 1]; ++p) {
-            if (particles.material[p] != material) continue;
-            Real square = 0;
-            for (std::size_t a = 0; a < 3; ++a) {
-                const Real distance = position[a][p] - centre[static_cast<Eigen::Index>(a)];
-                square += distance * distance;
-            }
-            const Real left = 1 - square / (radius * radius);
-            if (left <= 0) continue;
-            add(p, turned, particles.rest_volume[p] * left * left, ball);
-        }
+    for (const OccupiedCell& cell : cells_near(levels, point, reach, total ? 0 : 1))
+        for (std::uint32_t p = levels.cell_start[cell.slot]; p < levels.cell_start[cell.slot + 1]; ++p)
+            if (particles.material[p] == material)
+                visit(p, Vec3(Vec3(position[0][p], position[1][p], position[2][p]) - point), cell.slot);
+}
+
+/// Add what the ball about `centre`, a place in the mirrors `turned`, holds; weights not yet normalised.
+void collect(const PassOptions& options, const grid::Levels& levels, const particles::Particles& particles,
+             const Vec3& centre, std::uint8_t turned, std::uint8_t material, Real radius, Ball& ball)
+{
+    for_particles_near(options, levels, particles, centre, radius, material,
+                       [&](std::uint32_t p, const Vec3& offset, std::size_t) {
+                           Real square = 0;
+                           for (int a = 0; a < 3; ++a) square += offset[a] * offset[a];
+                           const Real left = 1 - square / (radius * radius);
+                           if (left > 0) add(p, turned, particles.rest_volume[p] * left * left, ball);
+                       });
 }
 } // namespace
 
@@ -125,19 +132,14 @@ Ball ball_ahead(const PassOptions& options, const grid::Levels& levels, const pa
     Ball ball = ball_of_cell(levels, particles, cell.slot, material);
     const Real half = levels.spacing(cell.level) / 2, end = length - half;
     if (end <= half) return ball;
-    const bool total = options.formulation == Formulation::total;
-    const auto& position = total ? particles.rest_position : particles.position;
-    const Vec3 centre = centre_of(levels, cell);
-    for (const OccupiedCell& other : cells_near(levels, centre, end, total ? 0 : 1)) {
-        if (other.slot == cell.slot) continue;
-        for (std::uint32_t p = levels.cell_start[other.slot]; p < levels.cell_start[other.slot + 1]; ++p) {
-            if (particles.material[p] != material) continue;
-            const Vec3 offset = Vec3(position[0][p], position[1][p], position[2][p]) - centre;
-            const Real along = offset.dot(way);
-            if (along <= 0 || along > end || (offset - along * way).squaredNorm() > half * half) continue;
-            add(p, 0, particles.rest_volume[p], ball);
-        }
-    }
+    for_particles_near(options, levels, particles, centre_of(levels, cell), end, material,
+                       [&](std::uint32_t p, const Vec3& offset, std::size_t slot) {
+                           const Real along = offset.dot(way);
+                           const bool ahead = along > 0 && along <= end;
+                           if (slot == cell.slot || !ahead) return;
+                           if ((offset - along * way).squaredNorm() <= half * half)
+                               add(p, 0, particles.rest_volume[p], ball);
+                       });
     return ball;
 }
 

@@ -264,26 +264,25 @@ void choose_tested(const View& view, const particles::Particles& particles, Cand
     const material::Decohesion& law = *nonlocal_law(view.laws, candidate.material);
     candidate.tested = ball_mean(view, particles, candidate);
     candidate.excess = excess_of(law, candidate.tested);
-    const OccupiedCell cell = occupied_cell(view.levels, candidate.slot);
     const core::Sym<Real> own =
         mean_of(view, particles, ball_of_cell(view.levels, particles, candidate.slot, candidate.material));
     const Real own_excess = excess_of(law, own);
     candidate.overloaded = own_excess > overload;
     if (own_excess <= std::max(Real(1), candidate.excess)) return;
-    const auto test = [&](const core::Sym<Real>& stress, Real excess) {
-        if (excess <= candidate.excess) return;
-        candidate.tested = stress;
-        candidate.excess = excess;
-    };
     if (candidate.overloaded) {
-        test(own, own_excess);
+        candidate.tested = own;
+        candidate.excess = own_excess;
         return;
     }
+    const OccupiedCell cell = occupied_cell(view.levels, candidate.slot);
     for (const Vec3& way : arriving_cracks(view, particles, candidate.slot)) {
         const core::Sym<Real> ahead = mean_of(
             view, particles,
             ball_ahead(view.options, view.levels, particles, cell, candidate.material, way, law.nonlocal_radius));
-        test(ahead, excess_of(law, ahead));
+        const Real excess = excess_of(law, ahead);
+        if (excess <= candidate.excess) continue;
+        candidate.tested = ahead;
+        candidate.excess = excess;
     }
 }
 
