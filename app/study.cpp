@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
+#include <sstream>
 
 namespace app
 {
@@ -127,12 +129,27 @@ private:
     double expected_left_ = 0, expected_done_ = 0, spent_ = 0;
 };
 
-Real expected_seconds(const solver::Problem& problem)
+Real expected_seconds(const solver::Problem& problem, const ParticleCount& counted)
 {
-    const Forecast f = forecast(problem);
+    const Forecast f = forecast(problem, counted);
     const Real work = f.steps * static_cast<Real>(f.total_particles());
     constexpr Real start = 0.05; // s, reading and seeding
     return std::isfinite(work) ? start + work / assumed_steps_per_s(problem.numerics) : start;
+}
+
+/// Those sections of a resolved case on which hangs what its grid holds.
+std::string grid_sections(const std::string& resolved)
+{
+    std::istringstream lines(resolved);
+    std::string sections, line;
+    bool wanted = false;
+    while (std::getline(lines, line)) {
+        if (line.starts_with('['))
+            wanted = line.starts_with("[grid]") || line.starts_with("[feature.") || line.starts_with("[[body]]") ||
+                     line.starts_with("[[refine.");
+        if (wanted) sections += line + '\n';
+    }
+    return sections;
 }
 
 /// One number for all parts of a run that was stopped and resumed.
@@ -180,12 +197,28 @@ void prepare_runs(std::vector<StudyRun>& runs)
             io::Case read = io::read_case_with_warnings(run.file, run.overrides);
             run.problem = std::move(read.problem);
             run.resolved = std::move(read.resolved);
-            run.expected_s = expected_seconds(run.problem);
-            if (run.limit > 0) run.expected_s = std::min(run.expected_s, run.limit);
         } catch (const core::InputError& error) {
             run.not_applicable = error.what();
         }
     });
+}
+
+void expect_costs(const std::vector<StudyRun*>& runs)
+{
+    std::map<std::string, std::size_t> number;
+    std::vector<std::size_t> grid_of;
+    std::vector<const solver::Problem*> grids;
+    for (const StudyRun* run : runs) {
+        const auto [known, is_new] = number.try_emplace(grid_sections(run->resolved), grids.size());
+        grid_of.push_back(known->second);
+        if (is_new) grids.push_back(&run->problem);
+    }
+    std::vector<ParticleCount> counted(grids.size());
+    tbb::parallel_for(std::size_t{0}, grids.size(), [&](std::size_t g) { counted[g] = count_particles(*grids[g]); });
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        runs[i]->expected_s = expected_seconds(runs[i]->problem, counted[grid_of[i]]);
+        if (runs[i]->limit > 0) runs[i]->expected_s = std::min(runs[i]->expected_s, runs[i]->limit);
+    }
 }
 
 std::optional<io::JobRecord> finished_run(const StudyRun& run, bool whole_cost)
@@ -218,6 +251,7 @@ PoolEnd run_study(const StudyOptions& options, std::vector<StudyRun>& runs)
         if (!options.again) run.record = finished_run(run, options.whole_cost);
         if (!run.record) to_do.push_back(&run);
     }
+    expect_costs(to_do);
     std::vector<Job> jobs;
     std::vector<std::optional<io::JobRecord>> before;
     for (const StudyRun* run : to_do) {

@@ -24,9 +24,9 @@ struct StudyRun
     std::string resolved;       // the case with every default; empty: the settings do not go together
     std::string not_applicable; // why
     solver::Problem problem;
-    Real expected_s = 0; // s, rough processor time, only for the time that is left
-    // After run_study; nothing: not run yet.
-    std::optional<io::JobRecord> record = {};
+    // After run_study; of what was finished before there is no expectation.
+    Real expected_s = 0;                      // s, rough processor time, only for the time that is left
+    std::optional<io::JobRecord> record = {}; // nothing: not run yet
 };
 
 struct StudyOptions
@@ -43,6 +43,10 @@ std::string directory_name(const std::string& label);
 
 /// Read the case of every run with its overrides: fills in `resolved` or `not_applicable`, and `problem`.
 void prepare_runs(std::vector<StudyRun>& runs);
+
+/// Fill in `expected_s` of prepared runs. Those that differ in their methods share a grid, which is counted once:
+/// counting takes seconds.
+void expect_costs(const std::vector<StudyRun*>& runs);
 
 /// The record of a finished run of the same resolved case with the same program version, if the directory holds one.
 ///
