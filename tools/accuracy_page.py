@@ -27,7 +27,7 @@ SCENES = {
     "c3-vortex": ("C3 vortex", "rotation and shear in a ring with curved free rims, largest angle"),
     "c5-bar": ("C5 bar", "period of the first mode"),
     "c8-cantilever": ("C8 cantilever", "bent by half its length; the reference does not shear, which is 0.9 %"),
-    "c9-spin": ("C9 spin", "energy after a hundred turns (the other settings: twenty)"),
+    "c9-spin": ("C9 spin", "energy after twenty turns"),
     "c10-hole": ("C10 hole, stretch", "plate with a hole, two levels"),
     "c10-stress": ("C10 hole, peak stress", "the same; stress of the outermost particle, first order"),
     "c11-cylinder": ("C11 cylinder", "Hill, 6 % below the limit pressure"),
