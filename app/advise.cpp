@@ -117,9 +117,6 @@ struct Fit
 /// What method_overrides changes of a grid: cell, levels, particles per cell.
 using GridKey = std::tuple<Real, int, int>;
 
-/// Cells of a grid that a machine can hold: beyond, nothing is counted and nothing advised.
-constexpr Real most_cells = 3e6;
-
 /// Cells of edge `cell` that the boxes around the bodies hold, not more than exist if bodies overlap.
 Real cells_around(const solver::Problem& problem, Real cell)
 {
@@ -273,7 +270,7 @@ std::optional<Evidence> evidence_of(const std::vector<const ChartRow*>& rows, Re
     return evidence;
 }
 
-std::optional<Advice> advise(const AdviceRequest& request, const std::vector<ChartRow>& rows)
+Advised advise(const AdviceRequest& request, const std::vector<ChartRow>& rows)
 {
     const solver::Problem problem = io::read_case(request.file, request.overrides);
     const SceneFeatures features = features_of(problem, request);
@@ -286,7 +283,9 @@ std::optional<Advice> advise(const AdviceRequest& request, const std::vector<Cha
     std::vector<std::string> silent;
     for (const std::string& scene : scenes)
         if (!reached_by_any(all, scene, request.error)) silent.push_back(scene);
-    std::optional<Advice> best;
+    Advised advised;
+    advised.length_mm = features.length;
+    std::optional<Advice>& best = advised.advice;
     std::map<GridKey, ParticleCount> counted;
     for (const Candidate& candidate : all) {
         if (candidate.method->levels > 1 && problem.grid.levels < 2) continue; // the case has no zones
@@ -310,7 +309,10 @@ std::optional<Advice> advise(const AdviceRequest& request, const std::vector<Cha
         advice.silent = silent;
         const std::optional<Fit> fit =
             fitting_grid(request, problem, *candidate.method, advice.resolution * features.length, counted);
-        if (!fit) continue;
+        if (!fit) {
+            advised.asked_mm = std::max(advised.asked_mm, advice.resolution * features.length);
+            continue;
+        }
         advice.set = fit->set;
         advice.finest_mm = fit->finest;
         advice.resolution = fit->finest / features.length;
@@ -320,7 +322,7 @@ std::optional<Advice> advise(const AdviceRequest& request, const std::vector<Cha
                 std::max(advice.charted_error, error_at(candidate.scenes.at(one.scene), advice.resolution, one.order));
         if (!best || advice.cpu_s < best->cpu_s) best = std::move(advice);
     }
-    return best;
+    return advised;
 }
 
 std::string advice_text(const AdviceRequest& request, const Advice& advice)

@@ -43,6 +43,13 @@ struct Advice
     bool own_scene = false;          // the case itself is in the chart
 };
 
+struct Advised
+{
+    std::optional<Advice> advice; // nothing: no charted method is expected to meet the error
+    Real asked_mm = 0;            // then the coarsest cell a method would meet it with, if no grid of that can be had
+    Real length_mm = 0;           // what the cells have to resolve
+};
+
 struct AdviceRequest
 {
     std::filesystem::path file;
@@ -59,10 +66,13 @@ int feature_distance(const SceneFeatures& a, const io::ChartRow& b);
 /// error does not fall with the cell.
 std::optional<Evidence> evidence_of(const std::vector<const io::ChartRow*>& rows, Real error);
 
-/// The cheapest settings expected to meet the error; nothing if no charted method is.
+/// Cells of a grid that a machine can hold: beyond, nothing is counted and nothing advised.
+inline constexpr Real most_cells = 3e6;
+
+/// The cheapest settings expected to meet the error.
 ///
 /// @error core::InputError of the case
-std::optional<Advice> advise(const AdviceRequest& request, const std::vector<io::ChartRow>& rows);
+Advised advise(const AdviceRequest& request, const std::vector<io::ChartRow>& rows);
 
 /// The advice as a fragment of a case file with the reasons as comments.
 std::string advice_text(const AdviceRequest& request, const Advice& advice);

@@ -175,14 +175,21 @@ int advice(const Options& options)
         return exit_done;
     }
     const AdviceRequest request{options.advise, options.overrides, error, options.length, options.without};
-    const std::optional<Advice> found = advise(request, rows);
-    if (!found)
+    const Advised found = advise(request, rows);
+    if (!found.advice && found.asked_mm > 0)
+        throw core::InputError(
+            fmt::format("{:.3g} % on scenes like {} asks for cells of {:.3g} mm, {:.3g} across the {:.4g} mm to be "
+                        "resolved: no grid of at most {:.0f} million cells has them\n--length gives another "
+                        "length to be resolved",
+                        100 * error, options.advise, found.asked_mm, found.length_mm / found.asked_mm, found.length_mm,
+                        most_cells / 1e6));
+    if (!found.advice)
         throw core::InputError(
             fmt::format("no charted method is expected to reach {:.3g} % on scenes like {}: the chart "
                         "has no run that accurate, and errors that do not fall with the cell cannot be "
                         "extrapolated",
                         100 * error, options.advise));
-    fmt::print("{}", advice_text(request, *found));
+    fmt::print("{}", advice_text(request, *found.advice));
     return exit_done;
 }
 } // namespace

@@ -31,7 +31,7 @@ Verdict judge(const std::string& scene, const std::vector<ChartRow>& rows, Real 
         return verdict;
     }
     const AdviceRequest request{first->file, {}, error, first->length_mm, {scene}};
-    verdict.advice = advise(request, rows);
+    verdict.advice = advise(request, rows).advice;
     if (!verdict.advice) return verdict;
     const ChartRow* held = nullptr;   // coarsest that is not coarser than advised
     const ChartRow* finest = nullptr; // of the coarser ones

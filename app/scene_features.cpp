@@ -37,13 +37,18 @@ Real smallest_side(const solver::Problem& problem)
     return smallest;
 }
 
-/// Twice the depth of the centre in its void, which for a round hole is the diameter; edges and open ends have none.
+/// Twice the depth of the centre in a void, which for a round hole is the diameter; edges and open ends have none. A
+/// void that others overlap, such as a piece of a slot, is as wide as the widest of them is around its centre.
 Real smallest_hole(const solver::Problem& problem)
 {
     Real smallest = infinity;
-    for (const solver::Feature& feature : problem.features)
-        if (const Real depth = -feature.shape.distance(feature.centre); depth > 0)
-            smallest = std::min(smallest, 2 * depth);
+    for (const solver::Feature& feature : problem.features) {
+        if (feature.shape.distance(feature.centre) >= 0) continue;
+        Real depth = 0;
+        for (const solver::Feature& hole : problem.features)
+            depth = std::max(depth, -hole.shape.distance(feature.centre));
+        smallest = std::min(smallest, 2 * depth);
+    }
     return smallest;
 }
 

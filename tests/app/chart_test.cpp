@@ -5,6 +5,7 @@
 #include "app/chart_summary.h"
 #include "app/leave_one_out.h"
 #include "app/scene_features.h"
+#include "io/case.h"
 #include "tests/support/folder.h"
 
 #include <fmt/format.h>
@@ -219,7 +220,7 @@ TEST(Advise, takes_the_cheapest_method_that_like_scenes_met_the_error_with)
 {
     const support::Folder folder;
     const app::AdviceRequest request{written_case(folder), {}, 0.05, {}, {}};
-    const std::optional<app::Advice> advice = app::advise(request, measured());
+    const std::optional<app::Advice> advice = app::advise(request, measured()).advice;
     ASSERT_TRUE(advice);
     // nodal needs x = 0.05: 0.2 mm in the hole of 4 mm. flip needs x = 0.1 and a cell of 1/3 mm: at (3/5)^4 of the
     // particle-steps, four times as dear each, it costs 0.52 of nodal.
@@ -237,7 +238,7 @@ TEST(Advise, a_method_that_failed_on_a_like_scene_is_not_advised)
     std::vector<ChartRow> rows = measured();
     for (ChartRow& r : rows)
         if (r.scene == "two" && r.scheme == "flip" && r.finest_mm == 0.25) r.status = "failed";
-    const std::optional<app::Advice> advice = app::advise({written_case(folder), {}, 0.05, {}, {}}, rows);
+    const std::optional<app::Advice> advice = app::advise({written_case(folder), {}, 0.05, {}, {}}, rows).advice;
     ASSERT_TRUE(advice);
     EXPECT_EQ(advice->method.transfer, "nodal");
 }
@@ -250,7 +251,7 @@ TEST(Advise, a_like_scene_that_nothing_comes_near_is_left_out_and_named)
     for (ChartRow& r : rows)
         if (r.scene == "two") r.error = 0.1; // converges to something else
     const app::AdviceRequest request{written_case(folder), {}, 0.05, {}, {}};
-    const std::optional<app::Advice> advice = app::advise(request, rows);
+    const std::optional<app::Advice> advice = app::advise(request, rows).advice;
     ASSERT_TRUE(advice);
     EXPECT_EQ(advice->evidence.size(), 2U);
     EXPECT_EQ(advice->silent, std::vector<std::string>{"two"});
@@ -264,7 +265,34 @@ TEST(Advise, out_of_reach_is_no_advice)
     const support::Folder folder;
     std::vector<ChartRow> rows = measured();
     for (ChartRow& r : rows) r.error = 0.1; // nothing converges
-    EXPECT_FALSE(app::advise({written_case(folder), {}, 0.05, {}, {}}, rows));
+    const app::Advised advised = app::advise({written_case(folder), {}, 0.05, {}, {}}, rows);
+    EXPECT_FALSE(advised.advice);
+    EXPECT_EQ(advised.asked_mm, 0);
+}
+
+TEST(Advise, a_grid_too_large_is_no_advice_but_its_cell_is_told)
+{
+    const support::Folder folder;
+    const app::Advised advised = app::advise({written_case(folder), {}, 0.05, 0.1, {}}, measured());
+    EXPECT_FALSE(advised.advice);
+    EXPECT_NEAR(advised.asked_mm, 0.01, 1e-12); // flip with ten cells across 0.1 mm
+    EXPECT_EQ(advised.length_mm, 0.1);
+}
+
+/// A slot made of overlapping pieces is no narrower than where its pieces meet.
+TEST(SceneFeatures, a_piece_of_a_slot_is_no_hole_of_its_own)
+{
+    const support::Folder folder;
+    const auto length = [&](const std::vector<std::string>& overrides) {
+        return app::scene_features(io::read_case(written_case(folder), overrides)).length;
+    };
+    EXPECT_NEAR(length({}), 4, 1e-9);
+    const std::string piece =
+        "feature.piece={centre=[7,5,0],axis=\"z\",shape={box={lower=[6.8,3,-inf],upper=[7.2,7,inf]}}}";
+    EXPECT_NEAR(length({piece}), 0.4, 1e-9);
+    EXPECT_NEAR(
+        length({piece, "feature.slot={centre=[5,5,0],axis=\"z\",shape={box={lower=[5,4,-inf],upper=[9,6,inf]}}}"}), 2,
+        1e-9);
 }
 
 TEST(LeaveOneOut, tells_met_from_missed)
