@@ -12,7 +12,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <tuple>
 
 namespace app
 {
@@ -114,9 +113,6 @@ struct Fit
     Real finest = 0, cost = 0;
 };
 
-/// What method_overrides changes of a grid: cell, levels, particles per cell.
-using GridKey = std::tuple<Real, int, int>;
-
 /// Cells of edge `cell` that the boxes around the bodies hold, not more than exist if bodies overlap.
 Real cells_around(const solver::Problem& problem, Real cell)
 {
@@ -130,9 +126,9 @@ Real cells_around(const solver::Problem& problem, Real cell)
 
 /// The coarsest grid of the case whose finest cell is at most `finest`: the case's own cell times 4, 2, 1, 1/2, 1/3,
 /// ..., so that planes and bodies that fitted its lattice still do.
-/// @param counted  grids that were counted before: methods share them
+/// @param counted  grids that were counted before, by grid_sections: methods share them
 std::optional<Fit> fitting_grid(const AdviceRequest& request, const solver::Problem& problem, const ChartRow& method,
-                                Real finest, std::map<GridKey, ParticleCount>& counted)
+                                Real finest, std::map<std::string, ParticleCount>& counted)
 {
     const Real several = method.levels > 1 ? std::pow(Real(2), problem.grid.levels - 1) : 1;
     constexpr int finest_part = 64;
@@ -146,11 +142,10 @@ std::optional<Fit> fitting_grid(const AdviceRequest& request, const solver::Prob
         std::vector<std::string> overrides = request.overrides;
         overrides.insert(overrides.end(), fit.set.begin(), fit.set.end());
         try {
-            const solver::Problem fitted = io::read_case(request.file, overrides);
-            const GridKey key{fitted.grid.cell, fitted.grid.levels, fitted.grid.particles_per_cell};
-            auto count = counted.find(key);
-            if (count == counted.end()) count = counted.emplace(key, count_particles(fitted)).first;
-            const Forecast f = forecast(fitted, count->second);
+            const io::Case fitted = io::read_case_with_warnings(request.file, overrides);
+            const auto [count, is_new] = counted.try_emplace(grid_sections(fitted.resolved));
+            if (is_new) count->second = count_particles(fitted.problem);
+            const Forecast f = forecast(fitted.problem, count->second);
             fit.cost = f.steps * static_cast<Real>(f.total_particles());
             return fit;
         } catch (const core::InputError&) {
@@ -286,7 +281,7 @@ Advised advise(const AdviceRequest& request, const std::vector<ChartRow>& rows)
     Advised advised;
     advised.length_mm = features.length;
     std::optional<Advice>& best = advised.advice;
-    std::map<GridKey, ParticleCount> counted;
+    std::map<std::string, ParticleCount> counted;
     for (const Candidate& candidate : all) {
         if (candidate.method->levels > 1 && problem.grid.levels < 2) continue; // the case has no zones
         Advice advice;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <sstream>
 
 namespace app
 {
@@ -148,6 +149,20 @@ Real assumed_steps_per_s(const solver::Numerics& numerics)
 {
     if (numerics.transfer != solver::Transfer::nodal) return 20e6;
     return numerics.precision == solver::Precision::mixed ? 70e6 : 45e6;
+}
+
+std::string grid_sections(const std::string& resolved)
+{
+    std::istringstream lines(resolved);
+    std::string sections, line;
+    bool wanted = false;
+    while (std::getline(lines, line)) {
+        if (line.starts_with('['))
+            wanted = line.starts_with("[grid]") || line.starts_with("[feature.") || line.starts_with("[[body]]") ||
+                     line.starts_with("[[refine.");
+        if (wanted) sections += line + '\n';
+    }
+    return sections;
 }
 
 // Seed one slab of level-0 cells after the other, count, forget.

@@ -41,6 +41,10 @@ struct Forecast : ParticleCount
     Real kinetic_share = 0;   // 1, kinetic over elastic energy of a body that yields everywhere
 };
 
+/// Those sections of a resolved case on which hangs what its grid holds: equal for cases whose particles need counting
+/// but once.
+std::string grid_sections(const std::string& resolved);
+
 /// Count particles level by level as a run would seed them, slab by slab so that memory stays small: seconds for
 /// millions.
 ParticleCount count_particles(const solver::Problem& problem);

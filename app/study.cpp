@@ -15,7 +15,6 @@
 #include <chrono>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 namespace app
 {
@@ -135,21 +134,6 @@ Real expected_seconds(const solver::Problem& problem, const ParticleCount& count
     const Real work = f.steps * static_cast<Real>(f.total_particles());
     constexpr Real start = 0.05; // s, reading and seeding
     return std::isfinite(work) ? start + work / assumed_steps_per_s(problem.numerics) : start;
-}
-
-/// Those sections of a resolved case on which hangs what its grid holds.
-std::string grid_sections(const std::string& resolved)
-{
-    std::istringstream lines(resolved);
-    std::string sections, line;
-    bool wanted = false;
-    while (std::getline(lines, line)) {
-        if (line.starts_with('['))
-            wanted = line.starts_with("[grid]") || line.starts_with("[feature.") || line.starts_with("[[body]]") ||
-                     line.starts_with("[[refine.");
-        if (wanted) sections += line + '\n';
-    }
-    return sections;
 }
 
 /// One number for all parts of a run that was stopped and resumed.

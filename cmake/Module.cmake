@@ -41,20 +41,18 @@ function(add_cleave_module name)
             list(APPEND targets ${variant})
             add_library(${variant} SHARED ${sources})
             target_compile_options(${variant} PRIVATE -march=${level} -mtune=generic)
-            # g++ copies vectors by 16 bytes or in a string instruction else, and what is read whole again has to wait.
             set(bits 256)
             if(level STREQUAL "x86-64-v4")
                 set(bits 512)
-            endif()
-            set(has_move_max $<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,12>>)
-            target_compile_options(${variant} PRIVATE
-                $<${has_move_max}:-mmove-max=${bits}> $<${has_move_max}:-mstore-max=${bits}>)
-            if(level STREQUAL "x86-64-v4")
                 # g++ 12 warns about its own AVX-512 header (GCC bug 105593); the other levels keep the warning.
                 target_compile_options(${variant} PRIVATE -mprefer-vector-width=512
                     $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized>
                     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
             endif()
+            # g++ copies vectors by 16 bytes or in a string instruction else, and what is read whole again has to wait.
+            set(has_move_max $<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,12>>)
+            target_compile_options(${variant} PRIVATE
+                $<${has_move_max}:-mmove-max=${bits}> $<${has_move_max}:-mstore-max=${bits}>)
             set_target_properties(${variant} PROPERTIES OUTPUT_NAME cleave_${name} BUILD_RPATH "$ORIGIN/../.."
                 LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/glibc-hwcaps/${level})
             add_dependencies(cleave_${name} ${variant}) # whoever builds one builds all: no stale kernels
