@@ -81,6 +81,7 @@ void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
     files.record.particles_start = before.particles_start;
     files.record.particle_steps = before.particle_steps;
     files.wall_before = before.wall_s;
+    files.cpu_before = before.cpu_s;
     Real largest = 0;
     for (const solver::HistoryLine& line : run.state.history) largest = std::max(largest, line.cod);
     for (Schedule* schedule :

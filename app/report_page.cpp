@@ -149,6 +149,7 @@ std::string run_table(const io::RunRecord& record)
                            {"instruction set", record.instruction_set},
                            {"threads", std::to_string(record.threads)},
                            {"wall time", fmt::format("{:.1f} s", record.wall_s)},
+                           {"processor time", fmt::format("{:.1f} s", record.cpu_s)},
                            {"steps", std::to_string(record.steps)},
                            {"particle-steps per second", fmt::format("{:.3g} million", speed / 1e6)},
                            {"peak memory", fmt::format("{:.2f} GB", static_cast<double>(record.peak_rss_bytes) / 1e9)},

@@ -193,6 +193,7 @@ void write_checkpoint(const solver::Problem& problem, solver::State& state, doub
 void write_status(double wall_s, RunFiles& files)
 {
     files.record.wall_s = files.wall_before + wall_s;
+    files.record.cpu_s = files.cpu_before + static_cast<Real>(std::clock() - files.cpu_start) / CLOCKS_PER_SEC;
     files.record.peak_rss_bytes = io::peak_resident_bytes();
     io::write_run_record(files.directory / "run.json", files.record);
 }

@@ -10,6 +10,7 @@
 #include "solver/state.h"
 #include "solver/step.h"
 
+#include <ctime>
 #include <filesystem>
 #include <memory>
 
@@ -44,7 +45,8 @@ struct RunFiles
     int vdb_frame = 0;
     std::int64_t last_particles = -1, last_grid = -1, last_vdb = -1; // steps of the newest frames
     double last_checkpoint = 0;                                      // s, wall time since the start of this part
-    double wall_before = 0;                                          // s, of the parts before a restart
+    double wall_before = 0, cpu_before = 0;                          // s, of the parts before a restart
+    std::clock_t cpu_start = std::clock();                           // processor time of all threads
 };
 
 /// The directory a run writes to: `-o`, or results/<case>, or with a number behind it if that holds a run already.

@@ -99,6 +99,7 @@ Json to_json(const RunRecord& record)
             {"instruction_set", record.instruction_set},
             {"threads", record.threads},
             {"wall_s", record.wall_s},
+            {"cpu_s", record.cpu_s},
             {"steps", record.steps},
             {"particle_steps", record.particle_steps},
             {"particle_steps_per_s", speed},
@@ -132,6 +133,8 @@ RunRecord read_run_record(const std::filesystem::path& path)
         json.at("instruction_set").get_to(record.instruction_set);
         json.at("threads").get_to(record.threads);
         json.at("wall_s").get_to(record.wall_s);
+        // Records of earlier versions have none: as if every thread had worked all the time.
+        record.cpu_s = json.value("cpu_s", record.wall_s * record.threads);
         json.at("steps").get_to(record.steps);
         json.at("particle_steps").get_to(record.particle_steps);
         json.at("peak_rss_bytes").get_to(record.peak_rss_bytes);

@@ -37,7 +37,7 @@ struct RunRecord
     std::string compiler;           // such as "g++ 12.2.0"
     std::string instruction_set;    // of the kernels in use, such as "x86-64-v4"
     int threads = 1;
-    Real wall_s = 0;                                           // s, of all parts of a resumed run
+    Real wall_s = 0, cpu_s = 0;                                // s, wall and processor time of all parts of a run
     std::int64_t steps = 0;                                    // 1
     std::uint64_t particle_steps = 0;                          // 1
     std::uint64_t peak_rss_bytes = 0;                          // byte

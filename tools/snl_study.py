@@ -5,7 +5,8 @@ usage: tools/snl_study.py [-o DIRECTORY] [--group GROUP] [--threads N] [--page-o
 
 Runs the variants of VARIANTS (or one group, or those named) into DIRECTORY/NAME (default results/snl-study), one after
 the other, skipping those that are done; then writes the tables of docs/snl.md, docs/snl.csv and the pictures in docs/img
-from all results it finds. Rows of docs/snl.csv whose runs are not there stay as they are. Needs python3-h5py and python3-matplotlib.
+from all results it finds. Rows of docs/snl.csv whose runs are not there, and pictures some of whose runs are not, stay as
+they are. Needs python3-h5py and python3-matplotlib.
 """
 import argparse
 import csv
@@ -57,7 +58,8 @@ def grip_speed(value):
             f'output.particles.every_time="{0.25 / value} ms"', 'output.history.every_time="5 us"']
 
 
-PAPER, FINE, OBJECTIVE, COUPON = "snl/preview.toml", "snl/challenge-lean.toml", "snl/objective/preview.toml", "tension/coupon.toml"
+PAPER, FINE, COUPON = "snl/preview.toml", "snl/challenge-lean.toml", "tension/coupon.toml"
+OBJECTIVE, FINE_OBJECTIVE = "snl/objective/preview.toml", "snl/objective/challenge.toml"
 VARIANTS = {
     "mixed": Variant("preview", PAPER, "as shipped: mixed mode, plain points"),
     "opening": Variant("preview", PAPER, "mode I only", mode("opening")),
@@ -95,7 +97,11 @@ VARIANTS = {
     "fine-opening": Variant("fine", FINE, "paper, mode I only, three levels", mode("opening")),
     "fine-shear": Variant("fine", FINE, "paper, mode II only, three levels", mode("shear")),
     "challenge": Variant("fine", "snl/challenge.toml", "paper, mixed mode, two levels as in the paper"),
-    "objective-challenge": Variant("fine", "snl/objective/challenge.toml", "objective, three levels"),
+    "objective-challenge": Variant("fine", FINE_OBJECTIVE, "objective, three levels"),
+    "objective-challenge-x": Variant("fine", FINE_OBJECTIVE, "objective, three levels, lattice moved by a quarter cell in x",
+                                     ["grid.origin=[0.0625, 0, 0]"]),
+    "objective-challenge-y": Variant("fine", FINE_OBJECTIVE, "objective, three levels, lattice moved by a quarter cell in y",
+                                     ["grid.origin=[0, 0.0625, 0]"]),
     "levels": Variant("levels", "snl/challenge.toml", "0.25 and 0.125 mm, as in the paper", AT_START),
     "levels-lean": Variant("levels", FINE, "0.5, 0.25 and 0.125 mm", AT_START),
     "levels-preview": Variant("levels", PAPER, "0.5 and 0.25 mm, preview", AT_START),
@@ -150,8 +156,8 @@ def force_before(curve, opening):
     return float(f[inside].mean()) if inside.any() else None
 
 
-def of_group(group, results):
-    return [name for name, variant in VARIANTS.items() if variant.group == group and name in results]
+def of_group(group):
+    return [name for name, variant in VARIANTS.items() if variant.group == group]
 
 
 def show_plane(axes, x, y, title):
@@ -177,12 +183,9 @@ def draw_pattern(axes, directory, time=None, title=None):
 
 
 def draw_curves(path, results, names, reference):
-    if not any(name in results for name in names):
-        return
     figure, axes = plt.subplots(figsize=(7, 4.2))
     for name in names:
-        if name in results:
-            axes.plot(*[v / s for v, s in zip(smooth(*read_curve(results[name])), (1, 1000))], linewidth=1.2, label=VARIANTS[name].change)
+        axes.plot(*[v / s for v, s in zip(smooth(*read_curve(results[name])), (1, 1000))], linewidth=1.2, label=VARIANTS[name].change)
     for marker, (who, numbers) in zip("os", reference.items()):
         axes.plot([numbers[f"c{k}_cod_mm"] for k in EVENTS], [numbers[f"c{k}_force_N"] / 1000 for k in EVENTS], marker,
                   color="0.2", markersize=5, markerfacecolor="none" if marker == "s" else "0.2", label=f"{who}: crack initiations")
@@ -197,9 +200,6 @@ def draw_curves(path, results, names, reference):
 
 
 def draw_patterns(path, results, names):
-    names = [name for name in names if name in results]
-    if not names:
-        return
     figure, axes = plt.subplots(1, len(names), figsize=(3.4 * len(names), 3.2), squeeze=False)
     for one, name in zip(axes[0], names):
         draw_pattern(one, results[name], title=VARIANTS[name].change)
@@ -208,7 +208,8 @@ def draw_patterns(path, results, names):
     plt.close(figure)
 
 
-def draw_sequence(path, directory, openings):
+def draw_sequence(path, results, names, openings=(1.0, 2.5, 4.0, 6.0)):
+    directory = results[names[0]]
     with open(directory / "history.csv", newline="") as file:
         rows = [(float(row["time_ms"]), float(row["cod_mm"])) for row in csv.DictReader(file)]
     figure, axes = plt.subplots(1, len(openings), figsize=(3.2 * len(openings), 3.2))
@@ -233,7 +234,8 @@ def row_of(name, directory):
             **{f"c{k}_mean_N": force_before(curve, measures.get(f"c{k}_cod_mm")) for k in EVENTS},
             "crack_path": measures.get("crack_path") or "", "force_at_3mm_N": force_near(curve, 3),
             "force_at_6mm_N": force_near(curve, 6), "energy_residual": measures.get("energy_residual"),
-            "particles": sum(record["particles"]["start"]), "steps": record["steps"], "wall_s": round(record["wall_s"])}
+            "particles": sum(record["particles"]["start"]), "steps": record["steps"],
+            "cpu_s": round(record.get("cpu_s", record["wall_s"] * record["threads"]))}
 
 
 def table(rows):
@@ -247,10 +249,7 @@ def table(rows):
     return "\n".join(lines)
 
 
-def draw_coupon(path, results):
-    names = of_group("coupon", results)
-    if not names:
-        return
+def draw_coupon(path, results, names):
     figure, axes = plt.subplots(figsize=(6, 3.8))
     for name in names:
         with open(results[name] / "history.csv", newline="") as file:
@@ -269,11 +268,8 @@ def draw_coupon(path, results):
     plt.close(figure)
 
 
-def draw_levels(path, results):
+def draw_levels(path, results, names):
     """Cells of the first frame that have material at the middle plane, one grey per size."""
-    names = of_group("levels", results)
-    if not names:
-        return
     figure, axes = plt.subplots(1, len(names), figsize=(4.2 * len(names), 4.2), squeeze=False)
     for one, name in zip(axes[0], names):
         _, points, _, side = read_frame(results[name], 0)
@@ -296,11 +292,8 @@ def largest_principal(stress):
     return np.linalg.eigvalsh(np.stack([np.stack([xx, xy, zx], -1), np.stack([xy, yy, yz], -1), np.stack([zx, yz, zz], -1)], -2))[:, 2]
 
 
-def draw_stress(path, results):
+def draw_stress(path, results, names):
     """Largest principal stress without fracture, last frame, one layer of points at the middle plane."""
-    names = of_group("field", results)
-    if not names:
-        return
     figure, axes = plt.subplots(1, len(names), figsize=(5 * len(names), 4), squeeze=False)
     for one, name in zip(axes[0], names):
         time, points, data, side = read_frame(results[name])
@@ -370,6 +363,23 @@ def table_one(rows, reference):
     return "\n".join(lines)
 
 
+def draw_all(images, results, reference):
+    """Every picture all of whose runs are at hand; the others stay as they are."""
+    modes = ["opening", "shear", "mixed"]
+    if all("fine-" + name in results for name in modes):
+        modes = ["fine-" + name for name in modes]
+    objective = ["objective-challenge", "objective", "objective-bridged", "objective-D"]
+    curves = lambda *of: draw_curves(*of, reference)
+    for name, draw, names in [
+            ("modes", curves, modes), ("patterns", draw_patterns, modes),
+            ("averaged", curves, ["opening-averaged", "shear-averaged", "mixed-averaged"]),
+            ("objective", curves, objective), ("patterns-objective", draw_patterns, objective),
+            ("sequence", draw_sequence, ["objective-challenge"]), ("levels", draw_levels, of_group("levels")),
+            ("coupon", draw_coupon, of_group("coupon")), ("stress", draw_stress, of_group("field"))]:
+        if all(name in results for name in names):
+            draw(images / f"snl-{name}.png", results, names)
+
+
 def write_page(results, reference):
     by_name = kept_rows() | {name: row_of(name, results[name]) for name in results if VARIANTS[name].group in EVENT_GROUPS}
     rows = [by_name[name] for name in VARIANTS if name in by_name]
@@ -377,21 +387,7 @@ def write_page(results, reference):
         writer = csv.DictWriter(file, dict.fromkeys(key for row in rows for key in row), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
-    images = ROOT / "docs/img"
-    modes = ("opening", "shear", "mixed")
-    fine = "fine-" if all("fine-" + name in results for name in modes) else ""
-    draw_curves(images / "snl-modes.png", results, [fine + name for name in modes], reference)
-    draw_patterns(images / "snl-patterns.png", results, [fine + name for name in modes])
-    draw_curves(images / "snl-averaged.png", results, ["opening-averaged", "shear-averaged", "mixed-averaged"], reference)
-    draw_curves(images / "snl-objective.png", results, ["objective-challenge", "objective", "objective-bridged", "objective-D"], reference)
-    draw_patterns(images / "snl-patterns-objective.png", results, ["objective-challenge", "objective", "objective-bridged", "objective-D"])
-    for name in ("objective-challenge", "objective"):
-        if name in results:
-            draw_sequence(images / "snl-sequence.png", results[name], [1.0, 2.5, 4.0, 6.0])
-            break
-    draw_levels(images / "snl-levels.png", results)
-    draw_coupon(images / "snl-coupon.png", results)
-    draw_stress(images / "snl-stress.png", results)
+    draw_all(ROOT / "docs/img", results, reference)
     page = ROOT / "docs/snl.md"
     text = replaced(page.read_text(), "table 1", table_one(by_name, reference))
     halved = half_the_cells(by_name, reference)

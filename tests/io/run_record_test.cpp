@@ -24,6 +24,7 @@ io::RunRecord record()
     record.instruction_set = "x86-64-v4";
     record.threads = 2;
     record.wall_s = 12.5;
+    record.cpu_s = 24.5;
     record.steps = 1000;
     record.particle_steps = 50000000;
     record.peak_rss_bytes = 3000000000;
@@ -46,6 +47,7 @@ TEST(RunRecord, HasTheKeysOfTheContract)
     EXPECT_EQ(json.at("version"), "0.1.0");
     EXPECT_EQ(json.at("threads"), 2);
     EXPECT_EQ(json.at("wall_s"), 12.5);
+    EXPECT_EQ(json.at("cpu_s"), 24.5);
     EXPECT_EQ(json.at("steps"), 1000);
     EXPECT_EQ(json.at("particle_steps"), 50000000);
     EXPECT_EQ(json.at("particle_steps_per_s"), 4e6);
@@ -67,6 +69,17 @@ TEST(RunRecord, ReadsBackAsItWas)
     io::write_run_record(path, io::read_run_record(path));
     EXPECT_EQ(io::read_file(path), text);
     EXPECT_EQ(io::read_run_record(path).references.at(0).measure.at("peak_force_N"), 8000);
+}
+
+TEST(RunRecord, TakesEarlierOnesWithoutProcessorTime)
+{
+    const support::Folder folder;
+    const auto path = folder.path() / "run.json";
+    io::write_run_record(path, record());
+    auto json = nlohmann::json::parse(io::read_file(path));
+    json.erase("cpu_s");
+    io::write_file(path, json.dump());
+    EXPECT_EQ(io::read_run_record(path).cpu_s, 25);
 }
 
 TEST(RunRecord, GivesItsMeasuresOnOneLine)

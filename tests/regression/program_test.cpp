@@ -1,3 +1,4 @@
+#include "io/run_record.h"
 #include "tests/regression/program.h"
 #include "tests/support/folder.h"
 
@@ -175,7 +176,14 @@ TEST_F(Program, a_resumed_run_writes_no_frame_twice)
     std::vector<std::string> one_step = resumed;
     one_step.insert(one_step.end(), {"--walltime", "0"});
     for (int part = 0; part < 5; ++part) ASSERT_EQ(test::run(tiny_preview(below("parts"), one_step)).exit_code, 75);
+    io::RunRecord record = io::read_run_record(below("parts") / "run.json");
+    EXPECT_GT(record.cpu_s, 0);
+    record.wall_s = record.cpu_s = 1000; // what earlier parts took is not lost
+    io::write_run_record(below("parts") / "run.json", record);
     ASSERT_EQ(test::run(tiny_preview(below("parts"), resumed)).exit_code, 0);
+    record = io::read_run_record(below("parts") / "run.json");
+    EXPECT_GT(record.wall_s, 1000);
+    EXPECT_GT(record.cpu_s, 1000);
     const auto frames = [&](const std::string& run) {
         std::vector<std::string> files = test::files_below(below(run));
         std::erase_if(files, [](const std::string& f) { return f.find('/') == f.npos || f.rfind("check", 0) == 0; });
