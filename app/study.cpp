@@ -62,9 +62,7 @@ std::optional<io::JobRecord> record_of_other(const StudyRun& run)
     if (!fs::exists(run.directory / "run.json")) return {};
     const io::RunRecord other = io::read_run_record(run.directory / "run.json");
     if (other.status != "done") return {};
-    return io::JobRecord{other.version, exit_done,    false,
-                         0,             other.cpu_s,  other.wall_s,
-                         other.peak_rss_bytes};
+    return io::JobRecord{other.version, exit_done, false, 0, other.cpu_s, other.wall_s, other.peak_rss_bytes};
 }
 
 std::string clock_time(double seconds)

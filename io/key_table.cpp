@@ -550,13 +550,13 @@ constexpr Key keys[] = {
         choice,
         required,
         "",
-        "energy of the whole model; number, rest volume of the separated; area sum(damage V0 / L_e); angle in degrees "
-        "of "
+        "energy of the whole model, with what was stored and let go; that of softening alone; number, rest volume of "
+        "the separated; area sum(damage V0 / L_e); angle in degrees of "
         "the line through the separated, in the plane normal to `axis`, from the next axis; length along that line; "
         "tip: largest rest coordinate along `axis`; time of the first onset",
         {},
         finite,
-        "energy|separated|volume|area|angle|length|tip|onset_time"},
+        "energy|softening|separated|volume|area|angle|length|tip|onset_time"},
     Key{"measure.crack", "axis", axis, defaulted, "\"z\"", "of angle, length and tip"},
     Key{"measure.crack", "region", shape, optional, "", "particles that were in it at time 0; absent: all"},
     Key{"measure.ratio", "of", text, required, "", "a measure"},

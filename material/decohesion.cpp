@@ -163,4 +163,9 @@ double fracture_energy(double q, const core::Crack& crack)
 {
     return crack.surface_energy * q / (q + 1);
 }
+
+double softening_energy(double q, const core::Crack& crack)
+{
+    return crack.surface_energy * (crack.damage - std::pow(crack.damage, q + 1) / (q + 1));
+}
 } // namespace material

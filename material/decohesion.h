@@ -89,4 +89,8 @@ double critical_length(const Elastic& elastic, double q, const core::Crack& crac
 
 /// Fracture energy G_f = U_0 q / (q + 1) [N/mm] that the crack will dissipate, in any mode and on any path (D.4).
 double fracture_energy(double q, const core::Crack& crack);
+
+/// What softening has dissipated so far, U_0 (lambda - lambda^(q+1) / (q+1)) [N/mm], on any path: the integral of
+/// tau.du = U_0 (1 - lambda^q) dlambda. G_f once the crack is through.
+double softening_energy(double q, const core::Crack& crack);
 } // namespace material

@@ -158,6 +158,7 @@ struct CrackQuantity
     enum class What
     {
         energy,     // mJ, of the whole model: the ledger's decohesion
+        softening,  // mJ, sum of V0 / L_e times what the softening law dissipated per area (material/decohesion.h)
         separated,  // 1, number of separated particles
         volume,     // mm^3, rest volume of the separated
         area,       // mm^2, sum of damage V0 / L_e

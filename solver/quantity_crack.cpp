@@ -1,5 +1,7 @@
 #include "solver/quantity_values.h"
 
+#include "material/decohesion.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -58,11 +60,13 @@ struct Sums
     Real separated = 0;                                      // 1
     Real volume = 0;                                         // mm^3
     Real area = 0;                                           // mm^2
+    Real softening = 0;                                      // mJ
     Real tip = -std::numeric_limits<Real>::infinity();       // mm
     Real onset_time = std::numeric_limits<Real>::infinity(); // ms
 };
 
-Sums sums_of(const CrackQuantity& crack, const particles::Particles& particles)
+Sums sums_of(const CrackQuantity& crack, const std::vector<material::Material>& materials,
+             const particles::Particles& particles)
 {
     Sums sums;
     for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -71,8 +75,11 @@ Sums sums_of(const CrackQuantity& crack, const particles::Particles& particles)
         if (!crack.region.contains(rest)) continue;
         const core::Crack& state = particles.cracks[static_cast<std::size_t>(particles.crack[p])];
         sums.onset_time = std::min(sums.onset_time, state.onset_time);
-        if (state.effective_length > 0)
-            sums.area += std::min(Real(1), state.damage) * particles.rest_volume[p] / state.effective_length;
+        if (state.effective_length > 0) {
+            const Real area = particles.rest_volume[p] / state.effective_length;
+            sums.area += std::min(Real(1), state.damage) * area;
+            sums.softening += area * material::softening_energy(materials[particles.material[p]].decohesion->q, state);
+        }
         if (state.damage < 1) continue;
         sums.separated += 1;
         sums.volume += particles.rest_volume[p];
@@ -82,15 +89,18 @@ Sums sums_of(const CrackQuantity& crack, const particles::Particles& particles)
 }
 } // namespace
 
-Real value_of(const CrackQuantity& crack, const particles::Particles& particles)
+Real value_of(const CrackQuantity& crack, const std::vector<material::Material>& materials,
+              const particles::Particles& particles)
 {
     using enum CrackQuantity::What;
     if (crack.what == angle || crack.what == length) return line_value(crack, particles);
-    const Sums sums = sums_of(crack, particles);
+    const Sums sums = sums_of(crack, materials, particles);
     const auto if_any = [](Real value) {
         return std::isfinite(value) ? value : std::numeric_limits<Real>::quiet_NaN();
     };
     switch (crack.what) {
+    case softening:
+        return sums.softening;
     case separated:
         return sums.separated;
     case volume:

@@ -28,7 +28,8 @@ Real value_of(const Difference& difference, const ParticleView& view);
 Real value_of(const Extent& extent, const ParticleView& view);
 Real value_of(const Momentum& momentum, const ParticleView& view);
 Real value_of(const Volume& volume, const ParticleView& view);
-Real value_of(const CrackQuantity& crack, const particles::Particles& particles);
+Real value_of(const CrackQuantity& crack, const std::vector<material::Material>& materials,
+              const particles::Particles& particles);
 Real value_of(const Energy& energy, const Ledger& ledger);
 /// @param clock  velocity belongs to time - dt / 2
 Real value_of(const FieldError& error, const Motion& motion, const Clock& clock, const ParticleView& view);

@@ -78,8 +78,9 @@ const Sample& take_sample(const Problem& problem, const Prepared& prepared, cons
                 [&](const LoadQuantity& kind) { return value_of(kind, problem, derived, state); },
                 [&](const FieldError& kind) { return value_of(kind, problem.motions[kind.motion], state.clock, view); },
                 [&](const CrackQuantity& kind) {
-                    return kind.what == CrackQuantity::What::energy ? ledger.decohesion
-                                                                    : value_of(kind, state.particles);
+                    return kind.what == CrackQuantity::What::energy
+                               ? ledger.decohesion
+                               : value_of(kind, problem.materials, state.particles);
                 },
                 [&](const Ratio&) { return std::numeric_limits<Real>::quiet_NaN(); }, // of results, not of values
                 [&](const auto& kind) { return value_of(kind, view); },

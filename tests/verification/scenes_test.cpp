@@ -121,8 +121,9 @@ TEST(Scenes, cracks_dissipate_their_fracture_energy_at_every_cell_size)
                 Overrides overrides = scheme;
                 overrides.push_back(fmt::format("grid.cell={}", cell));
                 overrides.push_back(fmt::format("feature.weak.shape.box.upper=[inf,{},inf]", 4 + cell));
-                EXPECT_NEAR(support::results_of(file, overrides).at("crack_energy_mJ") / 0.25, 1, 0.01)
-                    << file << ' ' << cell;
+                const support::Results results = support::results_of(file, overrides);
+                EXPECT_NEAR(results.at("crack_energy_mJ") / 0.25, 1, 0.01) << file << ' ' << cell;
+                EXPECT_NEAR(results.at("softening_mJ") / results.at("crack_energy_mJ"), 1, 0.01) << file << ' ' << cell;
             }
 }
 
