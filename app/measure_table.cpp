@@ -1,5 +1,7 @@
 #include "app/measure_table.h"
 
+#include "solver/measures.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +23,7 @@ std::string reference_text(const io::Measure& own, const solver::Reference& refe
 {
     if (const auto* path = std::get_if<std::string>(&own.value); path != nullptr)
         return reference.crack_path.empty() ? "-" : reference.crack_path;
-    const auto found = reference.measure.find(own.name);
+    const auto found = reference.measure.find(solver::published_name(own.name));
     if (found == reference.measure.end()) return "-";
     const Real value = std::get<Real>(own.value);
     const std::string text = number_text(own.name, found->second);
@@ -62,10 +64,10 @@ std::string target_table(const io::RunRecord& record)
 bool is_asked(const solver::Problem& problem, const std::string& measure)
 {
     if (measure == "peak_force_N") return !problem.force_upper.empty() || !problem.force_lower.empty();
-    const bool of_cracks = measure == "crack_path" || measure == "c1_force_N" || measure == "c1_cod_mm" ||
-                           measure == "c2_force_N" || measure == "c2_cod_mm" || measure == "c3_force_N" ||
-                           measure == "c3_cod_mm";
-    return !problem.ligaments.empty() || !of_cracks;
+    const auto& events = solver::event_measures;
+    const bool of_event = std::find(events.begin(), events.end(), measure) != events.end();
+    if (of_event && measure.ends_with("_mean_N") && problem.mean_over <= 0) return false;
+    return !problem.ligaments.empty() || !(of_event || measure == "crack_path");
 }
 
 std::string measure_table(const io::RunRecord& record, const solver::Problem& problem)

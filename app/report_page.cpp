@@ -4,6 +4,7 @@
 #include "app/measure_table.h"
 #include "app/svg_chart.h"
 #include "app/svg_field.h"
+#include "solver/measures.h"
 
 #include <fmt/format.h>
 
@@ -123,7 +124,7 @@ std::string measure_table(const Report& report)
         const bool text = std::holds_alternative<std::string>(measure.value);
         Row row{measure.name, text ? std::get<std::string>(measure.value) : number(std::get<Real>(measure.value))};
         for (const solver::Reference& reference : report.record.references) {
-            const auto value = reference.measure.find(measure.name);
+            const auto value = reference.measure.find(solver::published_name(measure.name));
             if (measure.name == "crack_path")
                 row.push_back(reference.crack_path);
             else if (value == reference.measure.end())

@@ -132,6 +132,7 @@ void read_crack(Draft& draft)
     draft.problem.start_features = section.names("start");
     for (std::size_t i = 0; section.sound() && i < draft.problem.start_features.size(); ++i)
         (void)find_feature(draft, draft.problem.start_features[i], section.find("start")->items[i].place);
+    draft.problem.mean_over = section.real("mean_over");
     section.finish();
     keep(draft, {"crack"}, section.resolved());
 }

@@ -1,4 +1,5 @@
 #include "io/case_draft.h"
+#include "solver/measures.h"
 
 #include <fmt/format.h>
 
@@ -199,10 +200,10 @@ void check_name(Draft& draft, SectionReader& section, const std::string& name)
         section.error("name", fmt::format("'{}' is not a name for a measure", name), "use letters, digits and _");
     for (const solver::Quantity& other : draft.problem.quantities)
         if (other.name == name) section.error("name", fmt::format("there are two measures '{}'", name));
-    constexpr std::string_view taken[] = {"peak_force_N",    "c1_force_N", "c1_cod_mm", "c2_force_N",
-                                          "c2_cod_mm",       "c3_force_N", "c3_cod_mm", "crack_path",
-                                          "energy_residual", "step",       "time_ms"};
-    if (std::find(std::begin(taken), std::end(taken), name) != std::end(taken))
+    constexpr std::string_view taken[] = {"peak_force_N", "crack_path", "energy_residual", "step", "time_ms"};
+    const auto& events = solver::event_measures;
+    if (std::find(std::begin(taken), std::end(taken), name) != std::end(taken) ||
+        std::find(events.begin(), events.end(), name) != events.end())
         section.error("name", fmt::format("'{}' is measured in every run already", name), "choose another name");
 }
 

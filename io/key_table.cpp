@@ -385,6 +385,8 @@ constexpr Key keys[] = {
         "polygon across `through`; absent: rectangle of `width` between the centres", dim::length},
 
     Key{"crack", "start", names, required, "", "features a crack path may start from"},
+    Key{"crack", "mean_over", real, defaulted, "0",
+        "opening before a crack initiation over which its mean force is taken; 0: none", dim::length, non_negative},
 
     Key{"measure", "name", text, required, "", "of the result in run.json: letters, digits and _"},
     Key{"measure", "probe", table, optional, "", "a field at a point or over a region"},

@@ -37,12 +37,34 @@ std::vector<std::size_t> initiations(const Problem& problem, const std::vector<L
                      [&](std::size_t a, std::size_t b) { return states[a].first_time < states[b].first_time; });
     return events;
 }
+
+/// Mean of the forces [N] over the opening `problem.mean_over` before the first broken column of a ligament.
+std::optional<Real> mean_force_before(const Problem& problem, const std::vector<HistoryLine>& history,
+                                      const LigamentState& ligament)
+{
+    if (problem.mean_over <= 0) return std::nullopt;
+    Real sum = 0;
+    int count = 0;
+    for (const HistoryLine& line : history) {
+        if (line.time > ligament.first_time) break;
+        if (line.cod <= ligament.first_cod - problem.mean_over) continue;
+        sum += specimen_force(problem, line.force_upper, line.force_lower);
+        ++count;
+    }
+    return count > 0 ? std::optional(sum / count) : std::nullopt;
+}
 } // namespace
 
 std::vector<std::size_t> crack_initiations(const Problem& problem, const std::vector<LigamentState>& ligaments)
 {
     if (ligaments.empty()) return {};
     return initiations(problem, ligaments, crack_path(problem.ligaments, ligaments, problem.start_features));
+}
+
+std::string published_name(const std::string& measure)
+{
+    constexpr std::string_view mean = "_mean_N";
+    return measure.ends_with(mean) ? measure.substr(0, measure.size() - mean.size()) + "_force_N" : measure;
 }
 
 Real specimen_force(const Problem& problem, Real force_upper, Real force_lower)
@@ -66,12 +88,15 @@ Measures measures(const Problem& problem, const std::vector<HistoryLine>& histor
     const std::vector<std::size_t> events = crack_initiations(problem, ligaments);
     for (std::size_t k = 0; k < 3; ++k) {
         const std::string name = "c" + std::to_string(k + 1);
-        std::optional<Real> force, cod;
+        std::optional<Real> force, mean, cod;
         if (k < events.size()) {
-            force = ligaments[events[k]].first_force;
-            cod = ligaments[events[k]].first_cod;
+            const LigamentState& ligament = ligaments[events[k]];
+            force = ligament.first_force;
+            mean = mean_force_before(problem, history, ligament);
+            cod = ligament.first_cod;
         }
         result.numbers.push_back({name + "_force_N", force});
+        result.numbers.push_back({name + "_mean_N", mean});
         result.numbers.push_back({name + "_cod_mm", cod});
     }
 

@@ -204,6 +204,7 @@ struct Problem
     int force_axis = 1;
     std::vector<Ligament> ligaments;
     std::vector<std::string> start_features; // where a crack path may start, such as "A"
+    Real mean_over = 0;                      // mm, opening before a crack initiation for its mean force; 0: none
     End end;
     Output output;
     std::vector<Reference> references;

@@ -9,11 +9,9 @@ namespace
 io::RunRecord record()
 {
     io::RunRecord record;
-    record.measures = {{"peak_force_N", 8200.0},
-                       {"c1_force_N", 7500.0},
-                       {"c1_cod_mm", std::numeric_limits<Real>::quiet_NaN()},
-                       {"energy_residual", 1e-4},
-                       {"crack_path", std::string()}};
+    record.measures = {{"peak_force_N", 8200.0},  {"c1_force_N", 7500.0},
+                       {"c1_mean_N", 7600.0},     {"c1_cod_mm", std::numeric_limits<Real>::quiet_NaN()},
+                       {"energy_residual", 1e-4}, {"crack_path", std::string()}};
     return record;
 }
 
@@ -27,8 +25,11 @@ TEST(MeasureTable, compares_with_every_reference)
     solver::Problem problem;
     problem.ligaments = {{"A", "D", {}}};
     problem.force_upper = "grip";
-    problem.references = {{"experiment", {{"peak_force_N", 8000.0}}, "A-D-C-E"}};
+    problem.references = {{"experiment", {{"peak_force_N", 8000.0}, {"c1_force_N", 8000.0}}, "A-D-C-E"}};
+    EXPECT_FALSE(holds(app::measure_table(record(), problem), "c1_mean_N")); // over no opening
+    problem.mean_over = 0.2;
     const std::string table = app::measure_table(record(), problem);
+    EXPECT_TRUE(holds(table, "c1_mean_N                   7600 N             8000 N (-5 %)")) << table;
     EXPECT_TRUE(holds(table, "8200 N             8000 N (+2 %)")) << table;
     EXPECT_TRUE(holds(table, "c1_cod_mm              not reached")) << table;
     EXPECT_TRUE(holds(table, "none                   A-D-C-E")) << table;

@@ -144,7 +144,7 @@ TEST_F(PointCase, cases_of_the_repository_are_valid)
         if (entry.path().stem() == "snap-back" || entry.path().stem() == "willam") continue; // one material
         EXPECT_NO_THROW((void)io::read_point_case(entry.path(), {"point.material=paper"})) << entry.path();
     }
-    EXPECT_EQ(count, 5);
+    EXPECT_EQ(count, 6);
 }
 
 TEST(PointFile, has_a_value_for_every_column)

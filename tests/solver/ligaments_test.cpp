@@ -341,6 +341,31 @@ TEST(CrackPath, never_returns_to_a_feature)
     EXPECT_EQ(path_name(crack_path(challenge, through_at({1, 2, 3, -1}), {"A"})), "A-D-C");
 }
 
+TEST(Measures, take_the_mean_force_of_the_opening_before_a_crack)
+{
+    Problem problem = plate();
+    problem.ligaments = challenge;
+    problem.mean_over = 0.2;
+    std::vector<HistoryLine> history(7);
+    const std::array<Real, 7> cod{2.0, 2.3, 2.31, 2.4, 2.5, 2.55, 2.45}, force{1, 2, 30, 60, 90, 500, 900};
+    for (std::size_t i = 0; i < history.size(); ++i) {
+        history[i].time = static_cast<Real>(i);
+        history[i].cod = cod[i];
+        history[i].force_upper = force[i] - 5;
+        history[i].force_lower = force[i] + 5;
+    }
+    std::vector<LigamentState> ligaments = through_at({4, -1, -1, -1});
+    ligaments[0].first_time = 4;
+    ligaments[0].first_cod = 2.5;
+    const Measures result = measures(problem, history, ligaments);
+    const auto found = std::find_if(result.numbers.begin(), result.numbers.end(),
+                                    [](const Measure& measure) { return measure.name == "c1_mean_N"; });
+    ASSERT_NE(found, result.numbers.end());
+    EXPECT_NEAR(*found->value, 60, 1e-12);
+    EXPECT_EQ(published_name("c1_mean_N"), "c1_force_N");
+    EXPECT_EQ(published_name("c1_cod_mm"), "c1_cod_mm");
+}
+
 TEST(Measures, are_read_off_the_history_and_the_ligaments)
 {
     Problem problem = plate();
@@ -379,6 +404,7 @@ TEST(Measures, are_read_off_the_history_and_the_ligaments)
     EXPECT_EQ(value("c2_cod_mm"), 4.0);
     EXPECT_FALSE(value("c3_force_N"));
     EXPECT_FALSE(value("c3_cod_mm"));
+    EXPECT_FALSE(value("c1_mean_N")); // not asked for
     EXPECT_NEAR(*value("energy_residual"), 0.05, 1e-12);
     EXPECT_EQ(result.crack_path, "A-D-C");
 
@@ -403,7 +429,7 @@ TEST(Measures, are_read_off_the_history_and_the_ligaments)
 TEST(Measures, of_a_run_without_ligaments_or_history_are_empty)
 {
     const Measures result = measures(Problem{}, {}, {});
-    EXPECT_EQ(result.numbers.size(), 8u);
+    EXPECT_EQ(result.numbers.size(), 11u);
     for (const Measure& measure : result.numbers) EXPECT_FALSE(measure.value) << measure.name;
     EXPECT_EQ(result.crack_path, "");
 }
