@@ -113,8 +113,7 @@ VARIANTS = {
 }
 EVENT_GROUPS = ["preview", "objective", "slice", "fine"]
 EVENTS = (1, 2, 3)
-BEFORE = 0.2  # mm of opening before an event over which the force is averaged: it rings by half a kilonewton
-MEASURES = ["peak_force_N", "c1_force_N", "c1_cod_mm", "c2_force_N", "c2_cod_mm", "c3_force_N", "c3_cod_mm"]
+MEASURES = ["peak_force_N"] + [f"c{k}_{what}" for k in EVENTS for what in ("force_N", "mean_N", "cod_mm")]
 
 
 def done(directory):
@@ -145,15 +144,6 @@ def force_near(curve, opening):
     x, f = curve
     near = np.abs(x - opening) < 0.05
     return float(f[near].mean()) if near.any() else float("nan")
-
-
-def force_before(curve, opening):
-    """Mean over the opening from BEFORE an event to it."""
-    if opening is None:
-        return None
-    x, f = curve
-    inside = (x > opening - BEFORE) & (x <= opening)
-    return float(f[inside].mean()) if inside.any() else None
 
 
 def of_group(group):
@@ -231,7 +221,6 @@ def row_of(name, directory):
     curve = read_curve(directory)
     return {"group": VARIANTS[name].group, "variant": name, "case": VARIANTS[name].case, "change": VARIANTS[name].change,
             **{key: measures.get(key) for key in MEASURES},
-            **{f"c{k}_mean_N": force_before(curve, measures.get(f"c{k}_cod_mm")) for k in EVENTS},
             "crack_path": measures.get("crack_path") or "", "force_at_3mm_N": force_near(curve, 3),
             "force_at_6mm_N": force_near(curve, 6), "energy_residual": measures.get("energy_residual"),
             "particles": sum(record["particles"]["start"]), "steps": record["steps"],
@@ -353,7 +342,7 @@ def table_one(rows, reference):
     lines = ["| measure | " + " | ".join(str(title) for title, _ in columns) + " |", "|---" * (len(columns) + 1) + "|"]
     for key, against, text, digits in [("peak_force_N", "peak_force_N", "maximum force, N", 0)] + [
             (f"c{k}_{what}", f"c{k}_{measured}", f"C{k}, {unit}", digits) for k in EVENTS
-            for what, measured, unit, digits in (("force_N", "force_N", "N", 0), ("mean_N", "force_N", f"mean N of the {BEFORE} mm before", 0),
+            for what, measured, unit, digits in (("force_N", "force_N", "N", 0), ("mean_N", "force_N", "mean N of the 0.2 mm before", 0),
                                                  ("cod_mm", "cod_mm", "COD mm", 2))]:
         cells = [number(value, digits) + ("" if value is None or title == "experiment" else off(value, experiment[against]))
                  for title, numbers in columns for value in [numbers.get(key)]]
