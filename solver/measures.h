@@ -40,9 +40,8 @@ std::vector<std::size_t> crack_initiations(const Problem& problem, const std::ve
 /// cK_...           crack initiation K: force and COD at the first through-broken column of a ligament. Counted are the
 ///                  ligaments of the crack path and the one that continues it but is not separated yet, in the order of
 ///                  their first broken columns; C1 to C3 of Yang et al. 2014, Table 1
-/// cK_mean_N        mean force of the history lines up to then whose COD is within `Problem::mean_over` of it: the
-/// force
-///                  rings after a crack, so one line says little; none where mean_over is 0
+/// cK_mean_N        mean force of the history lines up to then whose COD is within `Problem::mean_over` of it; none
+///                  where that is 0. The force rings after a crack, so one line says little
 /// energy_residual  1, ledger residual over external work of the last line
 Measures measures(const Problem& problem, const std::vector<HistoryLine>& history,
                   const std::vector<LigamentState>& ligaments);

@@ -96,6 +96,8 @@ VARIANTS = {
     "fine-mixed": Variant("fine", FINE, "paper, mixed mode, three levels"),
     "fine-opening": Variant("fine", FINE, "paper, mode I only, three levels", mode("opening")),
     "fine-shear": Variant("fine", FINE, "paper, mode II only, three levels", mode("shear")),
+    "fine-shear-D-0.05": Variant("fine", FINE, "paper, mode II only, three levels, hole D lower by 0.05 mm, to 3.5 mm",
+                                 mode("shear") + [D_AT.format(3.93), "end.cod=3.5"]),
     "challenge": Variant("fine", "snl/challenge.toml", "paper, mixed mode, two levels as in the paper"),
     "objective-challenge": Variant("fine", FINE_OBJECTIVE, "objective, three levels"),
     "objective-challenge-x": Variant("fine", FINE_OBJECTIVE, "objective, three levels, lattice moved by a quarter cell in x",

@@ -158,7 +158,7 @@ TEST(Separate, unloading_is_elastic_and_reloading_continues)
     EXPECT_NEAR(normal_traction(probe) / peak, 0.5, 1e-9); // full stiffness M
     pull(probe, probe.normal(), step, 20);
     EXPECT_NEAR(normal_traction(probe) / peak, 1, 1e-9);
-    pull(probe, probe.normal(), 3.6e-3, 3600);
+    pull(probe, probe.normal(), 3e-3, 3000);
     EXPECT_NEAR(probe.dissipated() / 0.5, 1, 1e-3);
 }
 
@@ -175,7 +175,7 @@ TEST(Separate, compression_passes_a_softening_crack)
 TEST(Separate, closed_crack_carries_compression_after_its_opening_is_used_up)
 {
     Probe probe(tough(), opening_stress, fine);
-    pull(probe, probe.normal(), 3.6e-3, 3600);
+    pull(probe, probe.normal(), 3e-3, 3000);
     ASSERT_EQ(probe.crack.damage, 1);
     const double opening = probe.crack.opening, work = probe.decohesion_work;
     ASSERT_GT(opening, 0);
@@ -199,7 +199,7 @@ TEST(Separate, shear_on_a_closed_crack_is_bounded_by_friction)
         Material material = tough();
         material.decohesion->friction = friction;
         Probe probe(material, opening_stress, fine);
-        pull(probe, probe.normal(), 3.6e-3, 3600);
+        pull(probe, probe.normal(), 3e-3, 3000);
         pull(probe, probe.normal(), -probe.crack.opening - 1e-3 * probe.crack.effective_length, 50);
         const double pressure = -normal_traction(probe), work = probe.decohesion_work;
         ASSERT_GT(pressure, 200);
