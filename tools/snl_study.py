@@ -100,9 +100,9 @@ VARIANTS = {
                                  mode("shear") + [D_AT.format(3.93), "end.cod=3.5"]),
     "challenge": Variant("fine", "snl/challenge.toml", "paper, mixed mode, two levels as in the paper"),
     "objective-challenge": Variant("fine", FINE_OBJECTIVE, "objective, three levels"),
-    "objective-challenge-x": Variant("fine", FINE_OBJECTIVE, "objective, three levels, lattice moved by a quarter cell in x",
+    "objective-challenge-x": Variant("fine", FINE_OBJECTIVE, "objective, lattice moved in x by 0.0625 mm",
                                      ["grid.origin=[0.0625, 0, 0]"]),
-    "objective-challenge-y": Variant("fine", FINE_OBJECTIVE, "objective, three levels, lattice moved by a quarter cell in y",
+    "objective-challenge-y": Variant("fine", FINE_OBJECTIVE, "objective, lattice moved in y by 0.0625 mm",
                                      ["grid.origin=[0, 0.0625, 0]"]),
     "levels": Variant("levels", "snl/challenge.toml", "0.25 and 0.125 mm, as in the paper", AT_START),
     "levels-lean": Variant("levels", FINE, "0.5, 0.25 and 0.125 mm", AT_START),
@@ -360,11 +360,13 @@ def draw_all(images, results, reference):
     if all("fine-" + name in results for name in modes):
         modes = ["fine-" + name for name in modes]
     objective = ["objective-challenge", "objective", "objective-bridged", "objective-D"]
+    of_lattice = ["objective-challenge", "objective-challenge-x", "objective-challenge-y"]
     curves = lambda *of: draw_curves(*of, reference)
     for name, draw, names in [
             ("modes", curves, modes), ("patterns", draw_patterns, modes),
             ("averaged", curves, ["opening-averaged", "shear-averaged", "mixed-averaged"]),
             ("objective", curves, objective), ("patterns-objective", draw_patterns, objective),
+            ("lattice", curves, of_lattice), ("patterns-lattice", draw_patterns, of_lattice),
             ("sequence", draw_sequence, ["objective-challenge"]), ("levels", draw_levels, of_group("levels")),
             ("coupon", draw_coupon, of_group("coupon")), ("stress", draw_stress, of_group("field"))]:
         if all(name in results for name in names):
