@@ -23,7 +23,8 @@ void* allocate(std::size_t size, std::size_t alignment)
 }
 } // namespace
 
-// The program's one set of replacements; all other forms of new and delete end here.
+// The program's one set of replacements; all other forms of new and delete end here. (Those that do not throw would by
+// themselves, but not beside a sanitizer's.)
 void* operator new(std::size_t size)
 {
     return allocate(size, alignof(std::max_align_t));
@@ -31,6 +32,14 @@ void* operator new(std::size_t size)
 void* operator new(std::size_t size, std::align_val_t alignment)
 {
     return allocate(size, static_cast<std::size_t>(alignment));
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept
+{
+    try {
+        return operator new(size);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
 }
 void operator delete(void* memory) noexcept
 {
