@@ -93,6 +93,9 @@ material::Decohesion read_decohesion(Draft& draft, SectionReader& section)
     law.onset_strength = section.choice<material::OnsetStrength>("onset_strength");
     law.smoothed_onset = section.boolean("smoothed_onset", !as_paper);
     law.nonlocal_radius = section.real("nonlocal_radius");
+    law.lode_memory = section.real("lode_memory");
+    if (law.lode_memory > 0 && law.nonlocal_radius == 0)
+        section.error("lode_memory", "lode_memory belongs to the nonlocal onset", "add a nonlocal_radius");
     law.crack_exclusion = section.real("crack_exclusion", law.nonlocal_radius);
     if (law.crack_exclusion > 0 && law.nonlocal_radius == 0)
         section.error("crack_exclusion", "crack_exclusion belongs to the nonlocal onset", "add a nonlocal_radius");

@@ -103,7 +103,8 @@ constexpr void break_across(const SeparationLaw& law, Faces<T>& faces)
     const T middle = half * core::trace(faces.stress);
     const T radius = core::sqrt(core::max(half * squared - middle * middle, zero));
     const T high = middle + radius, other = middle - radius, low = core::min(other, zero);
-    const T shear_limit = shear_strength(high, core::max(other, zero), low, law.second_shear, law.axial_rise);
+    const T shear_limit =
+        shear_strength(lode_parameter(high, core::max(other, zero), low), law.second_shear, law.axial_rise);
     const auto open = faces.opening > T(closed_opening) * faces.effective_length;
     const auto fails = (high > T(law.second_tension)) | ((middle > zero) & (half * (high - low) > shear_limit));
     const auto breaks = open & (faces.crossed <= zero) & fails;

@@ -67,13 +67,6 @@ double nominal_surface_energy(const Decohesion& law, Mode mode, const core::Crac
     return (opening + share * (shear - opening)) * (law.q + 1) / law.q;
 }
 
-/// tau(L) of material/onset.h.
-double shear_limit(const Decohesion& law, const Principal& stress)
-{
-    const auto [s1, s2, s3] = stress.value;
-    return shear_strength(s1, s2, s3, law.tau_max, axial_rise(law));
-}
-
 std::optional<Mode> failing_mode(bool opens, bool shears)
 {
     if (opens && shears) return Mode::mixed;
@@ -101,10 +94,15 @@ bool may_start(const Decohesion& law, const core::Sym<double>& stress)
     return may_start(stress, law.s_max, least_shear_strength(law));
 }
 
-double onset_ratio(const Decohesion& law, const Principal& stress)
+double lode_parameter(const Principal& stress)
+{
+    return lode_parameter(stress.value[0], stress.value[1], stress.value[2]);
+}
+
+double onset_ratio(const Decohesion& law, const Principal& stress, double lode)
 {
     const auto [s1, s2, s3] = stress.value;
-    return std::max(s1 / law.s_max, (s1 - s3) / (2 * shear_limit(law, stress)));
+    return std::max(s1 / law.s_max, (s1 - s3) / (2 * shear_strength(lode, law.tau_max, axial_rise(law))));
 }
 
 std::optional<Mode> failing_mode(const Decohesion& law, const PlaneTraction& traction)
@@ -112,19 +110,21 @@ std::optional<Mode> failing_mode(const Decohesion& law, const PlaneTraction& tra
     return failing_mode(traction.normal > law.s_max, traction.shear > law.tau_max);
 }
 
-std::optional<Mode> failing_mode(const Decohesion& law, const Principal& stress)
+std::optional<Mode> failing_mode(const Decohesion& law, const Principal& stress, double lode)
 {
     const auto [s1, s2, s3] = stress.value;
-    return failing_mode(s1 > law.s_max, (s1 - s3) / 2 > shear_limit(law, stress));
+    return failing_mode(s1 > law.s_max, (s1 - s3) / 2 > shear_strength(lode, law.tau_max, axial_rise(law)));
 }
 
 std::optional<core::Crack> onset(const Decohesion& law, const Elastic& elastic, const core::Sym<double>& test_stress,
-                                 const core::Sym<double>& stress, const Bias& bias, double spacing, double time)
+                                 const core::Sym<double>& stress, const Bias& bias, double spacing, double time,
+                                 std::optional<double> lode)
 {
     CLEAVE_EXPECTS(law.q > 0 && spacing > 0);
     const Principal principal_stress = principal(test_stress);
-    const std::optional<Mode> mode = law.weak_plane ? failing_mode(law, plane_traction(test_stress, {*law.weak_plane}))
-                                                    : failing_mode(law, principal_stress);
+    const std::optional<Mode> mode =
+        law.weak_plane ? failing_mode(law, plane_traction(test_stress, {*law.weak_plane}))
+                       : failing_mode(law, principal_stress, lode.value_or(lode_parameter(principal_stress)));
     if (!mode) return std::nullopt;
 
     const core::Vec<double> normal =

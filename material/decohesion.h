@@ -56,12 +56,17 @@ inline double least_shear_strength(const Decohesion& law)
 /// The cheap test of material/onset.h with the strengths of a law: false where no criterion can be met.
 bool may_start(const Decohesion& law, const core::Sym<double>& stress);
 
+/// Lode parameter of a stress [1].
+double lode_parameter(const Principal& stress);
+
 /// How far a stress exceeds the criteria [1]: the largest ratio of stress to strength, s_1 / s_max or
 /// (s_1 - s_3) / (2 tau(L)); above 1 where failing_mode names one.
-double onset_ratio(const Decohesion& law, const Principal& stress);
+/// @param lode  1, L of the strength
+double onset_ratio(const Decohesion& law, const Principal& stress, double lode);
 
 /// Mode that a stress starts, by the three criteria of the paper; none while both strengths hold.
-std::optional<Mode> failing_mode(const Decohesion& law, const Principal& stress);
+/// @param lode  1, L of the strength
+std::optional<Mode> failing_mode(const Decohesion& law, const Principal& stress, double lode);
 
 /// The same on a given plane: tension beyond s_max opens it, shear beyond tau_max shears it.
 std::optional<Mode> failing_mode(const Decohesion& law, const PlaneTraction& traction);
@@ -72,13 +77,15 @@ std::optional<Mode> failing_mode(const Decohesion& law, const PlaneTraction& tra
 /// or
 ///                     its cell's mean where law.smoothed_onset)
 /// @param stress       MPa, the particle's own; strengths are the larger of the two stresses' tractions, so F <= 0
+/// @param lode         1, L of the shear strength; empty: that of test_stress
 /// @param bias         velocity gradient and nearest crack, for the choice between conjugate planes
 /// @param spacing      mm, of the leaf cell the particle is in
 /// @param time         ms
 /// @pre  law gives u0 or a fracture energy; law.q > 0
 /// @cost about 1 us, no allocation
 std::optional<core::Crack> onset(const Decohesion& law, const Elastic& elastic, const core::Sym<double>& test_stress,
-                                 const core::Sym<double>& stress, const Bias& bias, double spacing, double time);
+                                 const core::Sym<double>& stress, const Bias& bias, double spacing, double time,
+                                 std::optional<double> lode = {});
 
 /// Longest effective length [mm] that softens without snap-back under prescribed strain (methods.md D.6),
 ///   L_crit = U_0 [M (tau_n/tau_nf)^2 / tau_nf^2 + mu (tau_t/tau_tf)^2 / tau_tf^2] / (phi^2 q),

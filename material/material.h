@@ -58,6 +58,8 @@ struct Decohesion
     Real tau_max = 0; // MPa, shear strength on (s1 - s3) / 2 in plane strain; infinity: never mode II
     /// MPa, the same where two principal stresses are equal, as in a tension bar; empty: tau_max.
     std::optional<Real> tau_max_axial;
+    /// 1, plastic strain over which the shear strength of an onset forgets the state before; 0: that of the moment.
+    Real lode_memory = 0;
     Real q = 1;                   // 1, exponent of the softening law
     std::optional<Real> u0;       // mm, reference decohesion (preset paper)
     std::optional<Real> energy_1; // N/mm, G_fI

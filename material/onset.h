@@ -25,9 +25,8 @@ constexpr T lode_parameter(const T& s1, const T& s2, const T& s3)
 /// Bai & Wierzbicki (Int. J. Plast. 24, 2008).
 /// @param axial_rise  MPa, strength of a tension bar over tau_max
 template <class T>
-constexpr T shear_strength(const T& s1, const T& s2, const T& s3, double tau_max, double axial_rise)
+constexpr T shear_strength(const T& lode, double tau_max, double axial_rise)
 {
-    const T lode = lode_parameter(s1, s2, s3);
     return T(tau_max) + T(axial_rise) * lode * lode;
 }
 

@@ -33,6 +33,8 @@ struct Particles
     Column rest_volume;                         // [p] mm^3
     Column mass;                                // [p] g
     Column eq_plastic_strain;                   // [p] 1
+    Column lode_mean;                           // [p] 1, L_m of its cell (material/lode_memory.h); empty if none asks
+    Column lode_strain;                         // [p] 1, plastic strain of its cell then; -1: none yet; empty likewise
     std::vector<std::int32_t> crack;            // [p] index into cracks, -1 intact
     std::vector<std::uint32_t> id;              // [p] 1, given at seeding, never changes
     std::vector<std::uint8_t> target_level;     // [p] level its zone asks for
@@ -75,6 +77,8 @@ void Particles::for_each_real(Self& self, Visit&& visit)
     visit(std::string("rest_volume"), self.rest_volume);
     visit(std::string("mass"), self.mass);
     visit(std::string("eq_plastic_strain"), self.eq_plastic_strain);
+    visit(std::string("lode_mean"), self.lode_mean);
+    visit(std::string("lode_strain"), self.lode_strain);
 }
 
 template <class Self, class Visit>

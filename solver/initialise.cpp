@@ -33,9 +33,10 @@ geometry::Bounds bounds_of_all(const std::vector<Body>& bodies)
     return all;
 }
 
-/// Columns that only one formulation or transfer needs.
-void add_scheme_columns(const Numerics& numerics, particles::Particles& particles)
+/// Columns that only one formulation, transfer or law needs.
+void add_scheme_columns(const Problem& problem, particles::Particles& particles)
 {
+    const Numerics& numerics = problem.numerics;
     const std::size_t count = particles.size();
     if (numerics.formulation == Formulation::total) {
         for (std::size_t n = 0; n < 9; ++n) particles.deformation_gradient[n].assign(count, n % 4 == 0 ? 1 : 0);
@@ -44,6 +45,11 @@ void add_scheme_columns(const Numerics& numerics, particles::Particles& particle
     }
     if (numerics.transfer == Transfer::apic)
         for (particles::Column& entry : particles.affine) entry.assign(count, 0);
+    const auto remembers = [](const material::Material& m) { return m.decohesion && m.decohesion->lode_memory > 0; };
+    if (std::any_of(problem.materials.begin(), problem.materials.end(), remembers)) {
+        particles.lode_mean.assign(count, 0);
+        particles.lode_strain.assign(count, -1);
+    }
 }
 
 /// Ids of the particles within one particle spacing of a point, or of the nearest one; sorted.
@@ -83,7 +89,7 @@ grid::Refinement populate(const Problem& problem, const Prepared& prepared, Stat
                                                "shape is empty",
                                                body.name, problem.grid.cell));
     }
-    add_scheme_columns(problem.numerics, state.particles);
+    add_scheme_columns(problem, state.particles);
     return refinement;
 }
 

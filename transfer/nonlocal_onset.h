@@ -15,36 +15,15 @@
 /// softens: no plane closer than `crack_exclusion` to a parallel one (`excluded`). The mean field is smooth, so without
 /// this rule a band as wide as the ball would separate instead of one layer of cells. A crack that has been unloaded
 /// before it was through, because the load went elsewhere, relieves nobody and forbids nothing.
+///
+/// Stages: cells near a strength, the stress each is tested on (transfer/nonlocal_stress.h), cracks in order of excess
+/// where no other forbids them (transfer/nonlocal_cracks.h).
 #pragma once
 
-#include "transfer/ball.h"
-#include "transfer/lattice.h"
-
-#include <cstdint>
-#include <unordered_map>
-#include <vector>
+#include "transfer/nonlocal_view.h"
 
 namespace transfer
 {
-/// What does not change in the total formulation, made when first asked for: it depends on nothing but the particles at
-/// rest, so a restart makes the same.
-struct NonlocalTable
-{
-    std::unordered_map<std::uint64_t, Ball> ball; // by slot * 256 + material
-    std::vector<std::uint32_t> place;             // [p] nodal scheme: (block * slots + slot) * lanes + lane
-};
-
-/// Ratio of a cell's own stress to the strength beyond which neither the ball nor a neighbour holds it back [1]. No
-/// ball of metal in one piece leaves that much out: of the particles that start in the challenge specimen nine tenths
-/// exceed the strength by less than 5 %. Scraps between pieces of a crack, or slivers at a rim, whose ball is empty of
-/// stress, would be drawn out for ever.
-inline constexpr Real overload = 1.25;
-
-/// Share of what is left of its strength below which a crack does not soften [1]. Cracks in line carry the same
-/// traction, so those that soften are near 1 and those that were passed by far below: in the challenge specimen nine
-/// tenths are above 0.76, the others below 0.4.
-inline constexpr Real idle_loading = 0.5;
-
 /// Steps between two tests: a wave cannot cross more than the radius in less, max(1, floor(R / (c_d dt))).
 int nonlocal_interval(const LawTable& laws, Real dt);
 
@@ -52,16 +31,8 @@ int nonlocal_interval(const LawTable& laws, Real dt);
 ///
 /// @param levels     reads motion (halos filled), cell_start
 /// @param lattice    reads stress and the cells near onset; writes cracked. Empty: other schemes
-/// @param particles  reads stress (other schemes), positions; writes crack, cracks
+/// @param particles  reads stress (other schemes), positions; writes crack, cracks, lode_mean, lode_strain
 /// @return number of particles that start
 std::size_t start_nonlocal_cracks(const PassOptions& options, const LawTable& laws, const grid::Levels& levels,
                                   Lattice& lattice, particles::Particles& particles, NonlocalTable& table);
-
-/// Two planes side by side: distance along the normal of the crack beyond half a band but within `reach`, offset along
-/// the plane less than a band, and normals less than 45 degrees apart.
-/// @param offset  mm, from the crack to the new plane, at rest
-/// @param normal  1, of the crack, at rest
-/// @param fresh   1, normal of the new plane, at rest
-/// @param band    mm, the larger L_e of the two
-bool excluded(const Vec3& offset, const Vec3& normal, const Vec3& fresh, Real band, Real reach);
 } // namespace transfer

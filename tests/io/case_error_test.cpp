@@ -27,7 +27,7 @@ TEST_F(CaseError, misspelt_key)
         "   12 | tau_mx = \"820 MPa\"\n"
         "      | ^~~~~~  did you mean 'tau_max'?\n"
         "   keys here: G_I, G_II, band_factor, c_m, c_m_mixed, c_m_opening, c_m_shear, crack_exclusion, "
-        "drop_transits, energy_floor_factor, friction, mode, nonlocal_radius, onset_strength, preset, q, "
+        "drop_transits, energy_floor_factor, friction, lode_memory, mode, nonlocal_radius, onset_strength, preset, q, "
         "renewed_plane, rotating_until, s_max, second_crack, smoothed_onset, snap_back, tau_max, tau_max_axial, u0, "
         "weak_plane     "
         "(cleave keys material.decohesion)\n"
@@ -44,6 +44,13 @@ TEST_F(CaseError, weak_plane_needs_a_normal_and_does_not_rotate)
     EXPECT_TRUE(contains(text, "case.toml:14:17: error: a weak_plane stays where it is\n"));
     EXPECT_TRUE(contains(text, "case.toml:15:16: error: a weak_plane is the only plane that can break\n"));
     EXPECT_TRUE(contains(text, "case.toml:16:17: error: a weak_plane compares the shear on it with tau_max alone\n"));
+}
+
+TEST_F(CaseError, lode_memory_needs_a_ball)
+{
+    const std::string text = complaint(with(valid_case, "tau_max =", "lode_memory = 0.05\ntau_max ="));
+    EXPECT_TRUE(contains(text, "case.toml:12:15: error: lode_memory belongs to the nonlocal onset\n"));
+    EXPECT_TRUE(contains(text, "add a nonlocal_radius"));
 }
 
 TEST_F(CaseError, misspelt_section)

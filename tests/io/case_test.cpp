@@ -56,6 +56,7 @@ void expect_equal_materials(const material::Material& a, const material::Materia
     EXPECT_EQ(x.s_max, y.s_max);
     EXPECT_EQ(x.tau_max, y.tau_max);
     EXPECT_EQ(x.tau_max_axial, y.tau_max_axial);
+    EXPECT_EQ(x.lode_memory, y.lode_memory);
     EXPECT_EQ(x.q, y.q);
     EXPECT_EQ(x.u0, y.u0);
     EXPECT_EQ(x.energy_1, y.energy_1);
@@ -221,6 +222,7 @@ friction = 0.2
 drop_transits = 5
 smoothed_onset = false
 nonlocal_radius = "0.25 mm"
+lode_memory = 0.05
 crack_exclusion = 0.1
 rotating_until = 0.5
 renewed_plane = true

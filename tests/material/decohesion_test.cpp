@@ -65,10 +65,7 @@ TEST(Onset, mode_follows_the_three_criteria)
 
 TEST(Onset, lode_parameter_of_known_states)
 {
-    const auto lode = [](const Sym& stress) {
-        const auto [s1, s2, s3] = principal(stress).value;
-        return lode_parameter(s1, s2, s3);
-    };
+    const auto lode = [](const Sym& stress) { return lode_parameter(principal(stress)); };
     EXPECT_NEAR(lode({{700, 0, 0, 0, 0, 0}}), -1, 1e-12);    // tension
     EXPECT_NEAR(lode({{-700, 0, 0, 0, 0, 0}}), 1, 1e-12);    // compression
     EXPECT_NEAR(lode({{0, 0, 0, 500, 0, 0}}), 0, 1e-12);     // shear
@@ -96,7 +93,24 @@ TEST(Onset, shear_strength_between_shear_and_tension_bar_is_quadratic_in_the_lod
     const auto at_half = [](double shear) { return Sym{{2 * shear, shear / 2, 0, 0, 0, 0}}; }; // L = -1/2
     EXPECT_TRUE(starts(at_half(half_way + 0.01)));
     EXPECT_FALSE(starts(at_half(half_way - 0.01)));
-    EXPECT_NEAR(onset_ratio(law, principal(at_half(1.2 * half_way))), 1.2, 1e-12);
+    EXPECT_NEAR(onset_ratio(law, principal(at_half(1.2 * half_way)), -0.5), 1.2, 1e-12);
+}
+
+TEST(Onset, strength_of_a_remembered_state_and_plane_of_the_stress)
+{
+    Decohesion law = paper();
+    law.s_max = infinite;
+    law.tau_max_axial = 1000;
+    const auto start = [&](const Sym& stress, std::optional<double> lode) {
+        return onset(law, steel(), stress, stress, {}, spacing, 0, lode);
+    };
+    const Sym shear{{0, 0, 0, 990, 0, 0}}, tension{{1700, 0, 0, 0, 0, 0}};
+    EXPECT_TRUE(start(shear, {}));
+    EXPECT_FALSE(start(shear, -1)); // 1000 MPa
+    EXPECT_FALSE(start(tension, {}));
+    ASSERT_TRUE(start(tension, 0)); // 820 MPa
+    EXPECT_EQ(start(shear, 0)->normal, start(shear, {})->normal);
+    EXPECT_EQ(start(shear, 0)->normal_strength, start(shear, {})->normal_strength);
 }
 
 TEST(Onset, the_cheap_test_never_clears_what_the_law_starts)
@@ -110,8 +124,9 @@ TEST(Onset, the_cheap_test_never_clears_what_the_law_starts)
         law.tau_max_axial = samples.uniform(500, 2000); // also below tau_max
         const Sym stress = samples.tensor(1000);
         const Principal p = principal(stress);
-        ASSERT_EQ(failing_mode(law, p).has_value(), onset_ratio(law, p) > 1);
-        if (!failing_mode(law, p)) continue;
+        const double lode = k % 2 == 0 ? lode_parameter(p) : samples.uniform(-1, 1);
+        ASSERT_EQ(failing_mode(law, p, lode).has_value(), onset_ratio(law, p, lode) > 1);
+        if (!failing_mode(law, p, lode)) continue;
         ++starting;
         ASSERT_TRUE(may_start(law, stress));
     }

@@ -22,6 +22,11 @@ solver::Problem torn_bar(const solver::Numerics& numerics, Real radius = 0)
     const solver::Load pin = support::pin("pin", {1, 4, 0}, 0.4, {0.0, 0.0, {}}, 0);
     material::Material metal = support::breakable();
     metal.decohesion->nonlocal_radius = metal.decohesion->crack_exclusion = radius;
+    if (radius > 0) { // shear fails with a strength that remembers
+        metal.decohesion->tau_max = 5.2;
+        metal.decohesion->tau_max_axial = 5.8;
+        metal.decohesion->lode_memory = 0.01;
+    }
     metal.decohesion->rotating_until = 0.5; // opening cracks first turn, then keep their planes
     metal.decohesion->renewed_plane = true;
     metal.decohesion->second_crack = true;
@@ -183,6 +188,10 @@ TEST(SameBits, for_any_number_of_threads)
         const solver::Problem problem = refined_torn_bar(scheme.numerics, scheme.nonlocal_radius);
         Job one = run_on(1, problem, 200);
         EXPECT_GT(one.state.particles.cracks.size(), 0U);
+        if (scheme.nonlocal_radius > 0) {
+            const particles::Column& remembered = one.state.particles.lode_strain;
+            EXPECT_GT(*std::max_element(remembered.begin(), remembered.end()), 0);
+        }
         for (const int threads : {2, 4}) {
             Job many = run_on(threads, problem, 200);
             expect_same(one, many);

@@ -1,4 +1,5 @@
 /// The ball of the nonlocal onset (transfer/ball.h) and the rule that keeps cracks apart.
+#include "transfer/nonlocal_cracks.h"
 #include "transfer/nonlocal_onset.h"
 
 #include "grid/topology.h"
@@ -291,6 +292,51 @@ TEST(Nonlocal, an_overloaded_cell_is_not_held_back)
     EXPECT_EQ(started(1.1, {}, 1.3), 8U);
     EXPECT_EQ(started(1.1, beside, 1.2), 0U);
     EXPECT_EQ(started(1.1, beside, 1.3), 8U);
+}
+
+namespace
+{
+/// Particles of one cell that start in shear between the strengths of shear, 1 MPa, and of a tension bar, 1.5 MPa,
+/// after tension just below the latter.
+/// @param strain  1, plastic strain that comes with the shear
+/// @param memory  1, lode_memory
+std::size_t started_after_tension(Real strain, Real memory)
+{
+    material::Material metal = support::soft_elastic();
+    metal.decohesion.emplace();
+    metal.decohesion->s_max = std::numeric_limits<Real>::infinity();
+    metal.decohesion->tau_max = 1;
+    metal.decohesion->tau_max_axial = 1.5;
+    metal.decohesion->energy_2 = 1;
+    metal.decohesion->nonlocal_radius = 0.01; // the cell itself decides
+    metal.decohesion->lode_memory = memory;
+    support::Topology topology = support::topology_of("cell", 1, 3, [](const grid::CellKey&) { return false; });
+    std::erase_if(topology.cells, [](const grid::CellKey& key) { return key.cell != Index3::Zero(); });
+    Scene scene = support::scene_of(topology, {}, {metal}, support::Layout::regular);
+    scene.particles.lode_mean.assign(scene.particles.size(), 0);
+    scene.particles.lode_strain.assign(scene.particles.size(), -1);
+    transfer::Lattice none;
+    transfer::NonlocalTable table;
+    const auto start = [&] {
+        return transfer::start_nonlocal_cracks(scene.options, scene.laws, scene.levels, none, scene.particles, table);
+    };
+    std::fill(scene.particles.eq_plastic_strain.begin(), scene.particles.eq_plastic_strain.end(), 0.3);
+    put_stress([](std::size_t n, const Vec3&) { return n == 0 ? 2.9 : 0.0; }, scene);
+    EXPECT_EQ(start(), 0U);
+    for (Real& strained : scene.particles.eq_plastic_strain) strained += strain;
+    put_stress([](std::size_t n, const Vec3&) { return n == 3 ? 1.2 : 0.0; }, scene);
+    return start();
+}
+} // namespace
+
+// A wave that turns the stress of metal strained like a tension bar starts nothing; straining it that way does.
+TEST(Nonlocal, the_strength_of_a_state_is_remembered_over_plastic_strain)
+{
+    EXPECT_EQ(started_after_tension(0, 0), 8U);
+    EXPECT_EQ(started_after_tension(0, 0.05), 0U);
+    // 1 + 0.5 L_m^2 < 1.2 below |L_m| = 0.632 = exp(-0.458)
+    EXPECT_EQ(started_after_tension(0.450 * 0.05, 0.05), 0U);
+    EXPECT_EQ(started_after_tension(0.465 * 0.05, 0.05), 8U);
 }
 
 // One layer of cells: planes beside a crack are forbidden, those that continue or cross it are not. Cells of 1 mm.
