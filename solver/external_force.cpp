@@ -23,6 +23,12 @@ void add_at(const transfer::CellFrame& frame, const Vec3& point, const Vec3& for
                           [&](int node, Real weight) { tile[node] += weight * force; });
 }
 
+bool has_body_force(const Problem& problem)
+{
+    return std::any_of(problem.bodies.begin(), problem.bodies.end(),
+                       [](const Body& body) { return body.body_force.has_value(); });
+}
+
 /// Body force and surface forces of every particle to the tiles of `derived.external`, which are zeroed first where
 /// there is one.
 void gather_forces(const Problem& problem, const State& state, Derived& derived)
@@ -34,8 +40,13 @@ void gather_forces(const Problem& problem, const State& state, Derived& derived)
     std::vector<Real> ramp;
     for (const SurfaceLoad& load : problem.surface_loads) ramp.push_back(ramp_value(load.ramp, time));
     const SurfaceForces& surface = derived.surface;
+    const bool pulled = has_body_force(problem);
+    const auto idle = [&](std::uint32_t begin, std::uint32_t end) {
+        return !pulled && surface.start[begin] == surface.start[end]; // one of the two there is
+    };
     transfer::for_each_in_cell(
-        state.strays, particles, state.levels, [&](std::size_t leaf, const transfer::CellFrame& frame, std::size_t p) {
+        state.strays, particles, state.levels, idle,
+        [&](std::size_t leaf, const transfer::CellFrame& frame, std::size_t p) {
             const auto motion = problem.bodies[particles.body[p]].body_force;
             const bool pushed = !surface.start.empty() && surface.start[p] != surface.start[p + 1];
             if (!motion && !pushed) return;
@@ -98,8 +109,7 @@ Damped damped_at(const Problem& problem, const State& state, std::size_t leaf, i
 
 bool has_external_forces(const Problem& problem)
 {
-    return !problem.surface_loads.empty() || std::any_of(problem.bodies.begin(), problem.bodies.end(),
-                                                         [](const Body& body) { return body.body_force.has_value(); });
+    return !problem.surface_loads.empty() || has_body_force(problem);
 }
 
 void add_external_forces(const Problem& problem, State& state, Derived& derived)

@@ -10,13 +10,15 @@
 namespace transfer
 {
 /// Call `serve(leaf, frame, p)` for every particle; leaf by leaf in parallel, strays afterwards in the leaf they are
-/// in, so whoever writes to a leaf's tile is alone.
-template <class Serve>
+/// in, so whoever writes to a leaf's tile is alone. Leaves are passed over where `idle(begin, end)` says that none of
+/// their particles [begin, end) needs serving.
+template <class Idle, class Serve>
 void for_each_in_cell(const Strays& strays, const particles::Particles& particles, const grid::Levels& levels,
-                      const Serve& serve)
+                      const Idle& idle, const Serve& serve)
 {
     core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
         const std::uint32_t* start = levels.cell_start.data() + n * grid::leaf_cells;
+        if (idle(start[0], start[grid::leaf_cells])) return;
         const LeafFrame leaf = leaf_frame(levels, n);
         for (int c = 0; c < grid::leaf_cells; ++c)
             for (std::uint32_t p = start[c]; p < start[c + 1]; ++p)
