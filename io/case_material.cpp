@@ -96,6 +96,8 @@ material::Decohesion read_decohesion(Draft& draft, SectionReader& section)
     law.lode_memory = section.real("lode_memory");
     if (law.lode_memory > 0 && law.nonlocal_radius == 0)
         section.error("lode_memory", "lode_memory belongs to the nonlocal onset", "add a nonlocal_radius");
+    if (law.lode_memory > 0 && !section.has("tau_max_axial"))
+        section.error("lode_memory", "without tau_max_axial all states have one strength", "add tau_max_axial");
     law.crack_exclusion = section.real("crack_exclusion", law.nonlocal_radius);
     if (law.crack_exclusion > 0 && law.nonlocal_radius == 0)
         section.error("crack_exclusion", "crack_exclusion belongs to the nonlocal onset", "add a nonlocal_radius");

@@ -106,8 +106,8 @@ constexpr Key keys[] = {
         real,
         defaulted,
         "0",
-        "plastic strain over which tau_max_axial's share of the strength forgets the state before; needs a "
-        "nonlocal_radius; 0: that of the moment",
+        "with tau_max_axial and a nonlocal_radius: plastic strain over which the strength forgets the state before; "
+        "0: that of the moment",
         {},
         non_negative},
     Key{"material.decohesion", "q", real, defaulted, "1", "exponent of the softening law", {}, positive},

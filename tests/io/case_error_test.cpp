@@ -46,11 +46,12 @@ TEST_F(CaseError, weak_plane_needs_a_normal_and_does_not_rotate)
     EXPECT_TRUE(contains(text, "case.toml:16:17: error: a weak_plane compares the shear on it with tau_max alone\n"));
 }
 
-TEST_F(CaseError, lode_memory_needs_a_ball)
+TEST_F(CaseError, lode_memory_needs_a_ball_and_two_strengths)
 {
     const std::string text = complaint(with(valid_case, "tau_max =", "lode_memory = 0.05\ntau_max ="));
     EXPECT_TRUE(contains(text, "case.toml:12:15: error: lode_memory belongs to the nonlocal onset\n"));
     EXPECT_TRUE(contains(text, "add a nonlocal_radius"));
+    EXPECT_TRUE(contains(text, "case.toml:12:15: error: without tau_max_axial all states have one strength\n"));
 }
 
 TEST_F(CaseError, misspelt_section)
