@@ -31,6 +31,8 @@ DECOHESION = "material.steel.decohesion"
 AVERAGED = ['material.steel.dilatation="cell"']
 SECOND = [f"{DECOHESION}.second_crack=true"]
 BRIDGED = [f"{DECOHESION}.second_crack=false"]
+MOMENT = [f"{DECOHESION}.lode_memory=0"]
+QUARTER_X, QUARTER_Y = ["grid.origin=[0.125, 0, 0]"], ["grid.origin=[0, 0.125, 0]"]
 D_AT = "feature.D.centre=[18.52, {:.2f}, 0]"
 AT_START = ['end.time="1e-5 ms"']
 
@@ -60,6 +62,17 @@ def grip_speed(value):
 
 PAPER, FINE, COUPON = "snl/preview.toml", "snl/challenge-lean.toml", "tension/coupon.toml"
 OBJECTIVE, FINE_OBJECTIVE = "snl/objective/preview.toml", "snl/objective/challenge.toml"
+OBJECTIVE_CHANGES = [
+    ("shifted-x", "lattice moved by a quarter cell in x", QUARTER_X),
+    ("shifted-y", "lattice moved by a quarter cell in y", QUARTER_Y),
+    ("bridged", "no second cracks", BRIDGED),
+    ("C", "hole C where it was traced", ["feature.C.centre=[21.08, 0.84, 0]"]),
+    ("D-0.10", "hole D lower by 0.10 mm", [D_AT.format(3.88)]),
+    ("D", "hole D where it was traced", [D_AT.format(3.98)]),
+    ("counted", "sample points counted in cut cells", ['grid.edge="fraction"']),
+    ("slow", "pins part at 2.5 m/s", speed(1.25, 3.2)),
+    ("fast", "pins part at 10 m/s", speed(5, 0.9)),
+]
 VARIANTS = {
     "mixed": Variant("preview", PAPER, "as shipped: mixed mode, plain points"),
     "opening": Variant("preview", PAPER, "mode I only", mode("opening")),
@@ -69,8 +82,8 @@ VARIANTS = {
     "opening-averaged": Variant("preview", PAPER, "mode I only, averaged dilatation", AVERAGED + mode("opening")),
     "shear-averaged": Variant("preview", PAPER, "mode II only, averaged dilatation", AVERAGED + mode("shear")),
     "mixed-second": Variant("preview", PAPER, "mixed mode, second cracks", SECOND),
-    "shifted-x": Variant("preview", PAPER, "lattice moved by a quarter cell in x", ["grid.origin=[0.125, 0, 0]"]),
-    "shifted-y": Variant("preview", PAPER, "lattice moved by a quarter cell in y", ["grid.origin=[0, 0.125, 0]"]),
+    "shifted-x": Variant("preview", PAPER, "lattice moved by a quarter cell in x", QUARTER_X),
+    "shifted-y": Variant("preview", PAPER, "lattice moved by a quarter cell in y", QUARTER_Y),
     "D-0.10": Variant("preview", PAPER, "hole D lower by 0.10 mm", [D_AT.format(3.88)]),
     "D-0.05": Variant("preview", PAPER, "hole D lower by 0.05 mm", [D_AT.format(3.93)]),
     "D+0.05": Variant("preview", PAPER, "hole D higher by 0.05 mm", [D_AT.format(4.03)]),
@@ -82,15 +95,12 @@ VARIANTS = {
     "full-thickness": Variant("preview", PAPER, "full thickness, no symmetry plane",
                               ["body.0.shape.difference.from.box.lower=[0, -15.875, -1.575]", "symmetry=[]"]),
     "objective": Variant("objective", OBJECTIVE, "as shipped, 0.5 and 0.25 mm"),
-    "objective-bridged": Variant("objective", OBJECTIVE, "no second cracks", BRIDGED),
-    "objective-shifted-x": Variant("objective", OBJECTIVE, "lattice moved by a quarter cell in x", ["grid.origin=[0.125, 0, 0]"]),
-    "objective-shifted-y": Variant("objective", OBJECTIVE, "lattice moved by a quarter cell in y", ["grid.origin=[0, 0.125, 0]"]),
-    "objective-C": Variant("objective", OBJECTIVE, "hole C where it was traced", ["feature.C.centre=[21.08, 0.84, 0]"]),
-    "objective-D-0.10": Variant("objective", OBJECTIVE, "hole D lower by 0.10 mm", [D_AT.format(3.88)]),
-    "objective-D": Variant("objective", OBJECTIVE, "hole D where it was traced", [D_AT.format(3.98)]),
-    "objective-counted": Variant("objective", OBJECTIVE, "sample points counted in cut cells", ['grid.edge="fraction"']),
-    "objective-slow": Variant("objective", OBJECTIVE, "pins part at 2.5 m/s", speed(1.25, 3.2)),
-    "objective-fast": Variant("objective", OBJECTIVE, "pins part at 10 m/s", speed(5, 0.9)),
+    **{f"objective-{name}": Variant("objective", OBJECTIVE, change, overrides) for name, change, overrides in OBJECTIVE_CHANGES},
+    "objective-memory-0.02": Variant("objective", OBJECTIVE, "memory of 0.02", [f"{DECOHESION}.lode_memory=0.02"]),
+    "objective-memory-0.1": Variant("objective", OBJECTIVE, "memory of 0.1", [f"{DECOHESION}.lode_memory=0.1"]),
+    "moment": Variant("moment", OBJECTIVE, "no memory", MOMENT),
+    **{f"moment-{name}": Variant("moment", OBJECTIVE, f"no memory, {change}", MOMENT + overrides)
+       for name, change, overrides in OBJECTIVE_CHANGES},
     "slice": Variant("slice", "snl/slice.toml", "cells of 0.25 mm"),
     "slice-fine": Variant("slice", "snl/slice.toml", "cells of 0.125 mm", ["grid.cell=0.25"]),
     "fine-mixed": Variant("fine", FINE, "paper, mixed mode, three levels"),
@@ -113,7 +123,7 @@ VARIANTS = {
                               ['output.particles.fields=["stress", "damage", "eq_plastic_strain"]']),
     **{f"coupon-{v:g}": Variant("coupon", COUPON, f"{2 * v:g} m/s", grip_speed(v)) for v in (0.5, 2.5, 5)},
 }
-EVENT_GROUPS = ["preview", "objective", "slice", "fine"]
+EVENT_GROUPS = ["preview", "objective", "moment", "slice", "fine"]
 EVENTS = (1, 2, 3)
 MEASURES = ["peak_force_N"] + [f"c{k}_{what}" for k in EVENTS for what in ("force_N", "mean_N", "cod_mm")]
 
@@ -359,13 +369,16 @@ def draw_all(images, results, reference):
     modes = ["opening", "shear", "mixed"]
     if all("fine-" + name in results for name in modes):
         modes = ["fine-" + name for name in modes]
-    objective = ["objective-challenge", "objective", "objective-bridged", "objective-D"]
+    objective = ["objective-challenge", "objective", "moment", "moment-bridged"]
+    paths = ["objective-challenge", "objective", "moment-shifted-y", "moment-D"]
+    of_memory = [model + lattice for model in ("objective", "moment") for lattice in ("", "-shifted-x", "-shifted-y")]
     of_lattice = ["objective-challenge", "objective-challenge-x", "objective-challenge-y"]
     curves = lambda *of: draw_curves(*of, reference)
     for name, draw, names in [
             ("modes", curves, modes), ("patterns", draw_patterns, modes),
             ("averaged", curves, ["opening-averaged", "shear-averaged", "mixed-averaged"]),
-            ("objective", curves, objective), ("patterns-objective", draw_patterns, objective),
+            ("objective", curves, objective), ("patterns-objective", draw_patterns, paths),
+            ("memory", curves, of_memory),
             ("lattice", curves, of_lattice), ("patterns-lattice", draw_patterns, of_lattice),
             ("sequence", draw_sequence, ["objective-challenge"]), ("levels", draw_levels, of_group("levels")),
             ("coupon", draw_coupon, of_group("coupon")), ("stress", draw_stress, of_group("field"))]:
