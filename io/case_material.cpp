@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <utility>
 
 namespace io
 {
@@ -93,14 +94,14 @@ material::Decohesion read_decohesion(Draft& draft, SectionReader& section)
     law.onset_strength = section.choice<material::OnsetStrength>("onset_strength");
     law.smoothed_onset = section.boolean("smoothed_onset", !as_paper);
     law.nonlocal_radius = section.real("nonlocal_radius");
+    law.crack_exclusion = section.real("crack_exclusion", law.nonlocal_radius);
     law.lode_memory = section.real("lode_memory");
-    if (law.lode_memory > 0 && law.nonlocal_radius == 0)
-        section.error("lode_memory", "lode_memory belongs to the nonlocal onset", "add a nonlocal_radius");
+    for (const auto& [key, value] :
+         {std::pair("crack_exclusion", law.crack_exclusion), std::pair("lode_memory", law.lode_memory)})
+        if (value > 0 && law.nonlocal_radius == 0)
+            section.error(key, fmt::format("{} belongs to the nonlocal onset", key), "add a nonlocal_radius");
     if (law.lode_memory > 0 && !section.has("tau_max_axial"))
         section.error("lode_memory", "without tau_max_axial all states have one strength", "add tau_max_axial");
-    law.crack_exclusion = section.real("crack_exclusion", law.nonlocal_radius);
-    if (law.crack_exclusion > 0 && law.nonlocal_radius == 0)
-        section.error("crack_exclusion", "crack_exclusion belongs to the nonlocal onset", "add a nonlocal_radius");
     if (const std::optional<Vec3> plane = section.optional_vector("weak_plane")) {
         if (plane->norm() == 0) section.error("weak_plane", "a plane needs a normal other than zero");
         const Vec3 unit = plane->normalized();

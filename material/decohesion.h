@@ -73,14 +73,13 @@ std::optional<Mode> failing_mode(const Decohesion& law, const PlaneTraction& tra
 
 /// State of a new crack (damage 0), or nothing if the strengths hold. The stress itself is not changed in this step.
 ///
-/// @param test_stress  MPa, after the return to the yield surface: decides mode and plane (the particle's own stress,
-/// or
-///                     its cell's mean where law.smoothed_onset)
+/// @param test_stress  MPa, after the return to the yield surface: decides mode and plane (the particle's own, or its
+///                     cell's mean where law.smoothed_onset)
 /// @param stress       MPa, the particle's own; strengths are the larger of the two stresses' tractions, so F <= 0
-/// @param lode         1, L of the shear strength; empty: that of test_stress
 /// @param bias         velocity gradient and nearest crack, for the choice between conjugate planes
 /// @param spacing      mm, of the leaf cell the particle is in
 /// @param time         ms
+/// @param lode         1, L of the shear strength; empty: that of test_stress
 /// @pre  law gives u0 or a fracture energy; law.q > 0
 /// @cost about 1 us, no allocation
 std::optional<core::Crack> onset(const Decohesion& law, const Elastic& elastic, const core::Sym<double>& test_stress,

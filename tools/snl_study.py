@@ -30,9 +30,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 DECOHESION = "material.steel.decohesion"
 AVERAGED = ['material.steel.dilatation="cell"']
 SECOND = [f"{DECOHESION}.second_crack=true"]
-BRIDGED = [f"{DECOHESION}.second_crack=false"]
 MOMENT = [f"{DECOHESION}.lode_memory=0"]
-QUARTER_X, QUARTER_Y = ["grid.origin=[0.125, 0, 0]"], ["grid.origin=[0, 0.125, 0]"]
 D_AT = "feature.D.centre=[18.52, {:.2f}, 0]"
 AT_START = ['end.time="1e-5 ms"']
 
@@ -62,17 +60,28 @@ def grip_speed(value):
 
 PAPER, FINE, COUPON = "snl/preview.toml", "snl/challenge-lean.toml", "tension/coupon.toml"
 OBJECTIVE, FINE_OBJECTIVE = "snl/objective/preview.toml", "snl/objective/challenge.toml"
-OBJECTIVE_CHANGES = [
-    ("shifted-x", "lattice moved by a quarter cell in x", QUARTER_X),
-    ("shifted-y", "lattice moved by a quarter cell in y", QUARTER_Y),
-    ("bridged", "no second cracks", BRIDGED),
-    ("C", "hole C where it was traced", ["feature.C.centre=[21.08, 0.84, 0]"]),
-    ("D-0.10", "hole D lower by 0.10 mm", [D_AT.format(3.88)]),
-    ("D", "hole D where it was traced", [D_AT.format(3.98)]),
-    ("counted", "sample points counted in cut cells", ['grid.edge="fraction"']),
-    ("slow", "pins part at 2.5 m/s", speed(1.25, 3.2)),
-    ("fast", "pins part at 10 m/s", speed(5, 0.9)),
-]
+CHANGES = {  # what is done to a preview with either model
+    "shifted-x": ("lattice moved by a quarter cell in x", ["grid.origin=[0.125, 0, 0]"]),
+    "shifted-y": ("lattice moved by a quarter cell in y", ["grid.origin=[0, 0.125, 0]"]),
+    "bridged": ("no second cracks", [f"{DECOHESION}.second_crack=false"]),
+    "C": ("hole C where it was traced", ["feature.C.centre=[21.08, 0.84, 0]"]),
+    "D-0.10": ("hole D lower by 0.10 mm", [D_AT.format(3.88)]),
+    "D-0.05": ("hole D lower by 0.05 mm", [D_AT.format(3.93)]),
+    "D": ("hole D where it was traced", [D_AT.format(3.98)]),
+    "D+0.05": ("hole D higher by 0.05 mm", [D_AT.format(4.03)]),
+    "D+0.10": ("hole D higher by 0.10 mm", [D_AT.format(4.08)]),
+    "counted": ("sample points counted in cut cells", ['grid.edge="fraction"']),
+    "slow": ("pins part at 2.5 m/s", speed(1.25, 3.2)),
+    "fast": ("pins part at 10 m/s", speed(5, 0.9)),
+}
+OBJECTIVE_CHANGES = ["shifted-x", "shifted-y", "bridged", "C", "D-0.10", "D", "counted", "slow", "fast"]
+
+
+def changed(names, group, case, prefix="", text="", overrides=()):
+    """Variants PREFIXname with the changes of those names, beside `overrides`."""
+    return {prefix + name: Variant(group, case, text + CHANGES[name][0], [*overrides, *CHANGES[name][1]]) for name in names}
+
+
 VARIANTS = {
     "mixed": Variant("preview", PAPER, "as shipped: mixed mode, plain points"),
     "opening": Variant("preview", PAPER, "mode I only", mode("opening")),
@@ -82,32 +91,24 @@ VARIANTS = {
     "opening-averaged": Variant("preview", PAPER, "mode I only, averaged dilatation", AVERAGED + mode("opening")),
     "shear-averaged": Variant("preview", PAPER, "mode II only, averaged dilatation", AVERAGED + mode("shear")),
     "mixed-second": Variant("preview", PAPER, "mixed mode, second cracks", SECOND),
-    "shifted-x": Variant("preview", PAPER, "lattice moved by a quarter cell in x", QUARTER_X),
-    "shifted-y": Variant("preview", PAPER, "lattice moved by a quarter cell in y", QUARTER_Y),
-    "D-0.10": Variant("preview", PAPER, "hole D lower by 0.10 mm", [D_AT.format(3.88)]),
-    "D-0.05": Variant("preview", PAPER, "hole D lower by 0.05 mm", [D_AT.format(3.93)]),
-    "D+0.05": Variant("preview", PAPER, "hole D higher by 0.05 mm", [D_AT.format(4.03)]),
-    "D+0.10": Variant("preview", PAPER, "hole D higher by 0.10 mm", [D_AT.format(4.08)]),
-    "slow": Variant("preview", PAPER, "pins part at 2.5 m/s", speed(1.25, 3.2)),
-    "fast": Variant("preview", PAPER, "pins part at 10 m/s", speed(5, 0.9)),
+    **changed(["shifted-x", "shifted-y", "D-0.10", "D-0.05", "D+0.05", "D+0.10", "slow", "fast"], "preview", PAPER),
     "double": Variant("preview", PAPER, "double precision", ['numerics.precision="f64"']),
     "updated": Variant("preview", PAPER, "updated Lagrangian, FLIP", ['numerics.formulation="updated"']),
     "full-thickness": Variant("preview", PAPER, "full thickness, no symmetry plane",
                               ["body.0.shape.difference.from.box.lower=[0, -15.875, -1.575]", "symmetry=[]"]),
     "objective": Variant("objective", OBJECTIVE, "as shipped, 0.5 and 0.25 mm"),
-    **{f"objective-{name}": Variant("objective", OBJECTIVE, change, overrides) for name, change, overrides in OBJECTIVE_CHANGES},
+    **changed(OBJECTIVE_CHANGES, "objective", OBJECTIVE, "objective-"),
     "objective-memory-0.02": Variant("objective", OBJECTIVE, "memory of 0.02", [f"{DECOHESION}.lode_memory=0.02"]),
     "objective-memory-0.1": Variant("objective", OBJECTIVE, "memory of 0.1", [f"{DECOHESION}.lode_memory=0.1"]),
     "moment": Variant("moment", OBJECTIVE, "no memory", MOMENT),
-    **{f"moment-{name}": Variant("moment", OBJECTIVE, f"no memory, {change}", MOMENT + overrides)
-       for name, change, overrides in OBJECTIVE_CHANGES},
+    **changed(OBJECTIVE_CHANGES, "moment", OBJECTIVE, "moment-", "no memory, ", MOMENT),
     "slice": Variant("slice", "snl/slice.toml", "cells of 0.25 mm"),
     "slice-fine": Variant("slice", "snl/slice.toml", "cells of 0.125 mm", ["grid.cell=0.25"]),
     "fine-mixed": Variant("fine", FINE, "paper, mixed mode, three levels"),
     "fine-opening": Variant("fine", FINE, "paper, mode I only, three levels", mode("opening")),
     "fine-shear": Variant("fine", FINE, "paper, mode II only, three levels", mode("shear")),
     "fine-shear-D-0.05": Variant("fine", FINE, "paper, mode II only, three levels, hole D lower by 0.05 mm, to 3.5 mm",
-                                 mode("shear") + [D_AT.format(3.93), "end.cod=3.5"]),
+                                 mode("shear") + CHANGES["D-0.05"][1] + ["end.cod=3.5"]),
     "challenge": Variant("fine", "snl/challenge.toml", "paper, mixed mode, two levels as in the paper"),
     "objective-challenge": Variant("fine", FINE_OBJECTIVE, "objective, three levels"),
     "objective-challenge-x": Variant("fine", FINE_OBJECTIVE, "objective, lattice moved in x by 0.0625 mm",

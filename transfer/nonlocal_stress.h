@@ -39,8 +39,6 @@ Ball ball_of(const NonlocalView& view, const particles::Particles& particles, co
 /// ball's. The tip of a crack makes a state of its own at once, so those two go by the state of the moment.
 ///
 /// @param candidate  reads slot, material; writes the rest
-/// @param particles  reads stress and plastic strain; writes lode_mean, lode_strain of the cell's intact particles,
-/// each
-///                   cell's its own
+/// @param particles  reads stress and plastic strain; writes lode_mean, lode_strain of the cell's intact particles
 void choose_tested(const NonlocalView& view, Candidate& candidate, particles::Particles& particles);
 } // namespace transfer

@@ -190,6 +190,21 @@ TEST(Nonlocal, a_ball_smaller_than_the_distance_of_particles_is_the_cell)
 
 namespace
 {
+constexpr Real cell_alone = 0.01; // mm, radius: the cell itself decides
+
+/// Shear strength 1 MPa, no tensile one.
+/// @param radius  mm, of the nonlocal onset
+material::Material fails_in_shear(Real radius)
+{
+    material::Material metal = support::soft_elastic();
+    metal.decohesion.emplace();
+    metal.decohesion->s_max = std::numeric_limits<Real>::infinity();
+    metal.decohesion->tau_max = 1;
+    metal.decohesion->energy_2 = 1;
+    metal.decohesion->nonlocal_radius = radius;
+    return metal;
+}
+
 /// A cell with a crack across y.
 struct CrackedCell
 {
@@ -203,12 +218,7 @@ struct CrackedCell
 /// @param load  MPa
 std::size_t started(Real radius, const std::optional<CrackedCell>& cracked, Real load = 1.2, int row = 1)
 {
-    material::Material metal = support::soft_elastic();
-    metal.decohesion.emplace();
-    metal.decohesion->s_max = std::numeric_limits<Real>::infinity();
-    metal.decohesion->tau_max = 1;
-    metal.decohesion->energy_2 = 1;
-    metal.decohesion->nonlocal_radius = radius;
+    material::Material metal = fails_in_shear(radius);
     metal.decohesion->crack_exclusion = 1.1;
     Scene scene = support::scene_of(support::topology_of("block", 1, 3, [](const grid::CellKey&) { return false; }), {},
                                     {metal}, support::Layout::regular);
@@ -277,7 +287,6 @@ TEST(Nonlocal, metal_ahead_of_a_crack_is_as_long_whatever_the_cells)
 TEST(Nonlocal, only_a_crack_that_softens_forbids_others)
 {
     const Index3 beside(0, -1, 0);
-    constexpr Real cell_alone = 0.01; // mm, radius: the cell itself decides
     EXPECT_EQ(started(cell_alone, {}), 8U);
     EXPECT_EQ(started(cell_alone, CrackedCell{beside, 0.2, 0.8}), 0U);
     EXPECT_EQ(started(cell_alone, CrackedCell{beside, 0.2, 0.3}), 8U); // unloaded
@@ -302,13 +311,8 @@ namespace
 /// @param memory  1, lode_memory
 std::size_t started_after_tension(Real strain, Real memory)
 {
-    material::Material metal = support::soft_elastic();
-    metal.decohesion.emplace();
-    metal.decohesion->s_max = std::numeric_limits<Real>::infinity();
-    metal.decohesion->tau_max = 1;
+    material::Material metal = fails_in_shear(cell_alone);
     metal.decohesion->tau_max_axial = 1.5;
-    metal.decohesion->energy_2 = 1;
-    metal.decohesion->nonlocal_radius = 0.01; // the cell itself decides
     metal.decohesion->lode_memory = memory;
     support::Topology topology = support::topology_of("cell", 1, 3, [](const grid::CellKey&) { return false; });
     std::erase_if(topology.cells, [](const grid::CellKey& key) { return key.cell != Index3::Zero(); });
