@@ -54,8 +54,8 @@ void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
         const auto record = files.directory / "run.json";
         if (options.resume && std::filesystem::exists(record) && io::read_run_record(record).status == "done")
             throw core::InputError(
-                fmt::format("{} holds a finished run without a checkpoint: nothing to resume. --force "
-                            "replaces it.",
+                fmt::format("{} holds a finished run without a checkpoint (output.checkpoint.at_end): nothing to "
+                            "resume. --force replaces it.",
                             files.directory.string()));
         run.state = solver::initialise(run.problem, run.prepared, run.derived);
         files.history = std::make_unique<io::HistoryFile>(files.directory / "history.csv", run.problem.grid.levels);
@@ -70,8 +70,9 @@ void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
     const io::RunRecord before = io::read_run_record(files.directory / "run.json");
     run.state = std::move(*stored);
     solver::resume(run.problem, run.prepared, run.state, run.derived);
+    // A run that ended has one line more than its state: the end cut a mean short that now goes on.
     files.history = std::make_unique<io::HistoryFile>(files.directory / "history.csv", run.problem.grid.levels,
-                                                      run.state.clock.step);
+                                                      run.state.history.empty() ? 0 : run.state.history.back().step);
     if (!run.problem.quantities.empty())
         files.probes = std::make_unique<io::LineFile>(files.directory / "probes.csv",
                                                       io::probe_header(run.problem.quantities), run.state.clock.step);
@@ -114,6 +115,8 @@ Ending loop(const RunOptions& options, Log& log, Run& run, RunFiles& files, std:
         }
         if (wall - files.last_checkpoint > every_wall) write_checkpoint(run.problem, run.state, wall, files);
     }
+    // Before the last line of the history, which ends a mean that a run to a later end would go on with.
+    if (run.problem.output.checkpoint_at_end) write_checkpoint(run.problem, run.state, seconds_since(start), files);
     return Ending::done;
 }
 

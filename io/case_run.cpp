@@ -134,6 +134,7 @@ void read_output(Draft& draft)
     read_part(draft, table, "checkpoint", [&](SectionReader& section) {
         output.checkpoint_every_wall = section.real("every_wall");
         output.checkpoint_keep = static_cast<int>(section.integer("keep"));
+        output.checkpoint_at_end = section.boolean("at_end");
     });
 }
 } // namespace io

@@ -60,6 +60,19 @@ std::string_view next_line(std::string_view& text)
     return line;
 }
 
+/// A resolved case less its section [end], which says when to stop and changes no step before.
+std::string without_end(std::string_view text)
+{
+    std::string rest;
+    bool in_end = false;
+    while (!text.empty()) {
+        const std::string_view line = next_line(text);
+        if (line.starts_with('[')) in_end = line == "[end]";
+        if (!in_end) rest.append(line).push_back('\n');
+    }
+    return rest;
+}
+
 /// The first line in which two case texts differ, as a sentence.
 std::string first_difference(std::string_view there, std::string_view here)
 {
@@ -79,10 +92,12 @@ void require_same_case(const Hdf5Reader& file, const CheckpointCase& of_case)
                                            "program ({}) reads layout {}",
                                            file.path().string(), layout, file.text_attribute("/", "version"),
                                            of_case.version, layout_version));
-    if (file.attribute<std::uint64_t>("/", "case_hash").at(0) == text_hash(of_case.resolved)) return;
     const auto bytes = file.dataset<std::uint8_t>("/case");
+    const std::string there = without_end(std::string(bytes.begin(), bytes.end()));
+    const std::string here = without_end(of_case.resolved);
+    if (there == here) return;
     throw core::InputError(fmt::format("cannot resume from '{}': it belongs to another case; {}", file.path().string(),
-                                       first_difference(std::string(bytes.begin(), bytes.end()), of_case.resolved)));
+                                       first_difference(there, here)));
 }
 
 /// Keep the newest `keep` up to `step`. Later ones are left-overs: damaged, or of an earlier run in this directory.
@@ -100,13 +115,6 @@ void remove_old(const std::filesystem::path& directory, std::int64_t step, int k
 }
 } // namespace
 
-std::uint64_t text_hash(std::string_view text)
-{
-    std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a offset basis and prime
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-    return hash;
-}
-
 std::filesystem::path write_checkpoint(const std::filesystem::path& directory, const solver::State& state,
                                        const CheckpointCase& of_case, int keep)
 {
@@ -115,7 +123,6 @@ std::filesystem::path write_checkpoint(const std::filesystem::path& directory, c
     Hdf5Writer file(path);
     file.attribute("/", "layout", layout_version);
     file.attribute("/", "version", std::string_view(of_case.version));
-    file.attribute("/", "case_hash", text_hash(of_case.resolved));
     file.dataset<std::uint8_t>("/case", std::vector<std::uint8_t>(of_case.resolved.begin(), of_case.resolved.end()));
     store_state(state, file);
     file.commit();

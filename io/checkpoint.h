@@ -3,7 +3,8 @@
 /// A checkpoint holds everything a bitwise continuation needs: all of solver::State and of grid::Levels the choice of
 /// leaves and cells; neighbours, tiles and interfaces are rebuilt by the reader, and so are node values, except in the
 /// nodal scheme: there motion and force of the nodes are state. Values are exact, uncompressed and protected by
-/// checksums. It also holds the text of resolved.toml, so that only the same case goes on.
+/// checksums. It also holds the text of resolved.toml, so that only the same case goes on; its
+/// section [end] may differ: a run that has ended can go on further.
 #pragma once
 
 #include "solver/state.h"
@@ -12,7 +13,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 
 namespace io
 {
@@ -22,9 +22,6 @@ struct CheckpointCase
     std::string resolved; // text of resolved.toml
     std::string version;  // of the program
 };
-
-/// 64-bit FNV-1a hash of a text.
-std::uint64_t text_hash(std::string_view text);
 
 /// Write a checkpoint, point `latest` at it and remove all but the newest `keep` up to its step. Later ones, left over
 /// from another run in this directory, go too.

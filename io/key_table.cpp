@@ -635,6 +635,8 @@ constexpr Key keys[] = {
     Key{"output.checkpoint", "every_wall", wall_time, defaulted, "\"15 min\"",
         "wall time between checkpoints, bare numbers in s", dim::time, positive},
     Key{"output.checkpoint", "keep", integer, defaulted, "2", "newest files kept", {}, positive},
+    Key{"output.checkpoint", "at_end", boolean, defaulted, "false",
+        "one more when the run ends: --resume goes on from there to a later end"},
 
     Key{"point", "material", text, required, "", "name of a material"},
     Key{"point", "cell", real, required, "", "cell size h of the effective length L_e = c_b h sum |n_i|", dim::length,

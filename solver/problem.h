@@ -166,6 +166,7 @@ struct Output
     Real vdb_scale = 1;                 // scene units per mm
     Real checkpoint_every_wall = 900;   // s
     int checkpoint_keep = 2;
+    bool checkpoint_at_end = false; // one more when the run ends, so that it can go on to a later end
 };
 
 /// End of a run: whichever comes first.

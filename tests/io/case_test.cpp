@@ -185,6 +185,7 @@ void expect_equal(const solver::Problem& a, const solver::Problem& b)
     EXPECT_EQ(a.output.vdb_scale, b.output.vdb_scale);
     EXPECT_EQ(a.output.checkpoint_every_wall, b.output.checkpoint_every_wall);
     EXPECT_EQ(a.output.checkpoint_keep, b.output.checkpoint_keep);
+    EXPECT_EQ(a.output.checkpoint_at_end, b.output.checkpoint_at_end);
 }
 
 /// Every key away from its default, every kind of shape.
@@ -276,7 +277,7 @@ history = { every_steps = 7 }
 particles = { every_steps = 70, fields = ["damage"], precision = "f64" }
 grid = { every_steps = 90, fields = ["stress", "density"] }
 vdb = { every_time = 0.1, grids = ["velocity"], preset = "houdini", scale = 0.1 }
-checkpoint = { every_wall = "20 min", keep = 3 }
+checkpoint = { every_wall = "20 min", keep = 3, at_end = true }
 [[reference]]
 name = "someone"
 peak_force_N = "8.4 kN"

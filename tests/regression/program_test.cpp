@@ -98,6 +98,21 @@ bool has_checkpoint(const fs::path& directory)
         return f.rfind("checkpoint/", 0) == 0 && fs::path(f).extension() == ".h5";
     });
 }
+
+/// @param series  the lists of frames, too
+void expect_same_results(const fs::path& one, const fs::path& other, bool series)
+{
+    EXPECT_EQ(test::contents(one / "history.csv"), test::contents(other / "history.csv"));
+    EXPECT_EQ(test::contents(one / "events.csv"), test::contents(other / "events.csv"));
+    int compared = 0;
+    for (const std::string& file : test::files_below(one)) {
+        if (file.rfind("particles/", 0) != 0 && file.rfind("grid/", 0) != 0) continue;
+        if (!series && fs::path(file).extension() == ".series") continue;
+        EXPECT_TRUE(test::contents(one / file) == test::contents(other / file)) << file;
+        ++compared;
+    }
+    EXPECT_GE(compared, 6 + 2 * series);
+}
 } // namespace
 
 TEST_F(Program, a_preview_run_writes_every_file)
@@ -152,15 +167,19 @@ TEST_F(Program, a_run_in_three_parts_leaves_the_files_of_one)
     EXPECT_TRUE(second.exit_code == 75 || second.exit_code == 0) << second.output;
     const test::Outcome third = test::run(tiny_preview(below("parts"), with({"--threads", "1", "--resume"})));
     ASSERT_EQ(third.exit_code, 0) << third.output;
-    EXPECT_EQ(test::contents(below("one") / "history.csv"), test::contents(below("parts") / "history.csv"));
-    EXPECT_EQ(test::contents(below("one") / "events.csv"), test::contents(below("parts") / "events.csv"));
-    int compared = 0;
-    for (const std::string& file : test::files_below(below("one"))) {
-        if (file.rfind("particles/", 0) != 0 && file.rfind("grid/", 0) != 0) continue;
-        EXPECT_TRUE(test::contents(below("one") / file) == test::contents(below("parts") / file)) << file;
-        ++compared;
-    }
-    EXPECT_GE(compared, 8); // frames and series of both
+    expect_same_results(below("one"), below("parts"), true);
+}
+
+// Ended between two frames, gone on to the end of the other run: the same bits, and the frame of the first end stays.
+TEST_F(Program, an_ended_run_goes_on_to_a_later_end)
+{
+    ASSERT_EQ(test::run(tiny_preview(below("one"), {"--set", "output.checkpoint.at_end=true"})).exit_code, 0);
+    const std::vector<std::string> shorter{"--set", "output.checkpoint.at_end=true", "--set", "end.time=\"0.0083 ms\""};
+    ASSERT_EQ(test::run(tiny_preview(below("parts"), shorter)).exit_code, 0);
+    const test::Outcome longer =
+        test::run(tiny_preview(below("parts"), {"--set", "output.checkpoint.at_end=true", "--resume"}));
+    ASSERT_EQ(longer.exit_code, 0) << longer.output;
+    expect_same_results(below("one"), below("parts"), false);
 }
 
 // Five parts of one step, then the rest; the first frames are due in the third step, and not again in the fourth.
