@@ -98,6 +98,7 @@ VARIANTS = {
                               ["body.0.shape.difference.from.box.lower=[0, -15.875, -1.575]", "symmetry=[]"]),
     "objective": Variant("objective", OBJECTIVE, "as shipped, 0.5 and 0.25 mm"),
     **changed(OBJECTIVE_CHANGES, "objective", OBJECTIVE, "objective-"),
+    "objective-long": Variant("objective", OBJECTIVE, "to COD 10 mm", ["end.cod=10", 'end.time="2.4 ms"']),
     "objective-memory-0.02": Variant("objective", OBJECTIVE, "memory of 0.02", [f"{DECOHESION}.lode_memory=0.02"]),
     "objective-memory-0.1": Variant("objective", OBJECTIVE, "memory of 0.1", [f"{DECOHESION}.lode_memory=0.1"]),
     "moment": Variant("moment", OBJECTIVE, "no memory", MOMENT),
@@ -208,6 +209,23 @@ def draw_patterns(path, results, names):
         draw_pattern(one, results[name], title=VARIANTS[name].change)
     figure.tight_layout()
     figure.savefig(path, dpi=100)
+    plt.close(figure)
+
+
+def draw_sections(path, results, names, behind=(22.7, 23.5)):
+    """Slabs of one particle's width across the crack behind hole C, from the middle plane to the face, last frame."""
+    places = [(name, x) for name in names for x in behind]
+    figure, axes = plt.subplots(1, len(places), figsize=(1.5 * len(places), 3.4), squeeze=False)
+    for one, (name, x) in zip(axes[0], places):
+        _, points, data, side = read_frame(results[name])
+        slab = (np.abs(points[:, 0] - x) < side.min()) & (points[:, 2] < 2)
+        y, z, damage = points[slab, 1], points[slab, 2], data["damage"][slab]
+        for chosen, colour in ((damage == 0, "0.8"), ((damage > 0) & (damage < 1), "tab:orange"), (damage >= 1, "tab:blue")):
+            one.scatter(z[chosen], y[chosen], color=colour, s=3, linewidths=0)
+        show_plane(one, (-0.1, 1.7), (-1.5, 2.5), "\n".join(VARIANTS[name].change.split(", ")[-1:] + [f"x = {x} mm"]))
+        one.title.set_fontsize(6)
+    figure.tight_layout()
+    figure.savefig(path, dpi=120)
     plt.close(figure)
 
 
@@ -380,7 +398,7 @@ def draw_all(images, results, reference):
             ("averaged", curves, ["opening-averaged", "shear-averaged", "mixed-averaged"]),
             ("objective", curves, objective), ("patterns-objective", draw_patterns, paths),
             ("memory", curves, of_memory),
-            ("lattice", curves, of_lattice), ("patterns-lattice", draw_patterns, of_lattice),
+            ("lattice", curves, of_lattice), ("patterns-lattice", draw_patterns, of_lattice), ("sections", draw_sections, of_lattice),
             ("sequence", draw_sequence, ["objective-challenge"]), ("levels", draw_levels, of_group("levels")),
             ("coupon", draw_coupon, of_group("coupon")), ("stress", draw_stress, of_group("field"))]:
         if all(name in results for name in names):
