@@ -213,17 +213,18 @@ def draw_patterns(path, results, names):
 
 
 def draw_sections(path, results, names, behind=(22.7, 23.5)):
-    """Slabs of one particle's width across the crack behind hole C, from the middle plane to the face, last frame."""
-    places = [(name, x) for name in names for x in behind]
-    figure, axes = plt.subplots(1, len(places), figsize=(1.5 * len(places), 3.4), squeeze=False)
-    for one, (name, x) in zip(axes[0], places):
+    """Slabs of one cell's width across the crack behind hole C, from the middle plane to the face, last frame."""
+    figure, axes = plt.subplots(1, len(names) * len(behind), figsize=(1.5 * len(names) * len(behind), 3.4))
+    for row, name in zip(axes.reshape(len(names), len(behind)), names):
         _, points, data, side = read_frame(results[name])
-        slab = (np.abs(points[:, 0] - x) < side.min()) & (points[:, 2] < 2)
-        y, z, damage = points[slab, 1], points[slab, 2], data["damage"][slab]
-        for chosen, colour in ((damage == 0, "0.8"), ((damage > 0) & (damage < 1), "tab:orange"), (damage >= 1, "tab:blue")):
-            one.scatter(z[chosen], y[chosen], color=colour, s=3, linewidths=0)
-        show_plane(one, (-0.1, 1.7), (-1.5, 2.5), "\n".join(VARIANTS[name].change.split(", ")[-1:] + [f"x = {x} mm"]))
-        one.title.set_fontsize(6)
+        lattice = VARIANTS[name].change.split(", ")[-1]
+        for one, x in zip(row, behind):
+            slab = (np.abs(points[:, 0] - x) < side.min()) & (points[:, 2] < 2)
+            y, z, damage = points[slab, 1], points[slab, 2], data["damage"][slab]
+            for chosen, colour in ((damage == 0, "0.8"), ((damage > 0) & (damage < 1), "tab:orange"), (damage >= 1, "tab:blue")):
+                one.scatter(z[chosen], y[chosen], color=colour, s=3, linewidths=0)
+            show_plane(one, (-0.1, 1.7), (-1.5, 2.5), f"{lattice}\nx = {x} mm")
+            one.title.set_fontsize(6)
     figure.tight_layout()
     figure.savefig(path, dpi=120)
     plt.close(figure)
