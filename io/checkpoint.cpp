@@ -61,15 +61,15 @@ std::string_view next_line(std::string_view& text)
     return line;
 }
 
-/// A resolved case less its section [end], which says when to stop and changes no step before.
-std::string without_end(std::string_view text)
+/// A resolved case less the sections that say when to stop and when to keep a state: they change no step.
+std::string without_free_sections(std::string_view text)
 {
     std::string rest;
-    bool in_end = false;
+    bool is_free = false;
     while (!text.empty()) {
         const std::string_view line = next_line(text);
-        if (line.starts_with('[')) in_end = line == "[end]";
-        if (!in_end) rest.append(line).push_back('\n');
+        if (line.starts_with('[')) is_free = line == "[end]" || line == "[output.checkpoint]";
+        if (!is_free) rest.append(line).push_back('\n');
     }
     return rest;
 }
@@ -94,8 +94,8 @@ void require_same_case(const Hdf5Reader& file, const CheckpointCase& of_case)
                                            file.path().string(), layout, file.text_attribute("/", "version"),
                                            of_case.version, layout_version));
     const auto bytes = file.dataset<std::uint8_t>("/case");
-    const std::string there = without_end(std::string(bytes.begin(), bytes.end()));
-    const std::string here = without_end(of_case.resolved);
+    const std::string there = without_free_sections(std::string(bytes.begin(), bytes.end()));
+    const std::string here = without_free_sections(of_case.resolved);
     if (there == here) return;
     throw core::InputError(fmt::format("cannot resume from '{}': it belongs to another case; {}", file.path().string(),
                                        first_difference(there, here)));

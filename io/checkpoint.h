@@ -3,8 +3,8 @@
 /// A checkpoint holds everything a bitwise continuation needs: all of solver::State and of grid::Levels the choice of
 /// leaves and cells; neighbours, tiles and interfaces are rebuilt by the reader, and so are node values, except in the
 /// nodal scheme: there motion and force of the nodes are state. Values are exact, uncompressed and protected by
-/// checksums. It also holds the text of resolved.toml, so that only the same case goes on; its section [end] may
-/// differ: a run that has ended can go on further.
+/// checksums. It also holds the text of resolved.toml, so that only the same case goes on; its sections [end]
+/// and [output.checkpoint] may differ: a run that has ended can go on further.
 #pragma once
 
 #include "solver/state.h"

@@ -33,8 +33,8 @@ void advance_leaf(const PassOptions& options, const LawTable& laws, std::size_t 
             if (start[c] == start[c + 1]) continue;
             const CellFrame cell = cell_frame(frame, c);
             if (at_once && is_plain(particles, start[c], start[c + 1])) {
-                advance_plain<F, T, S>(options, laws, cell, levels.motions(leaf), start[c], particles, outcome,
-                                       levels.sums(leaf));
+                advance_plain<F, T, S>(options, laws, cell, levels.motions(leaf), start[c], start[c + 1], particles,
+                                       outcome, levels.sums(leaf));
                 continue;
             }
             advance_cell<F, T, S>(options, laws, cell, Visitors::residents, levels.motions(leaf), start[c],

@@ -26,8 +26,6 @@ struct LeafOutcome
 
 namespace detail
 {
-constexpr std::size_t group_size = 64; // particles averaged together at most; more do not meet in a cell
-
 struct Kinematics
 {
     core::Mat<Lanes> gradient_increment; // 1, L dt
@@ -248,8 +246,8 @@ inline void unpack_gradients(const Kinematics* k, std::size_t count, core::Mat<R
                                          const Kinematics* k, std::size_t first, std::size_t last,
                                          const particles::Particles& particles, std::vector<Onset>& onset)
 {
-    core::Mat<Real> gradient[group_size];
-    core::Sym<Real> stress[group_size];
+    core::Mat<Real> gradient[group_size<false>];
+    core::Sym<Real> stress[group_size<false>];
     unpack_gradients(k, last - first, gradient);
     for (std::size_t p = first; p < last; ++p) stress[p - first] = particles::stress_of(particles, p);
     start_cracks(options, laws, particles, first, last, Real(1) / frame.per_spacing, stress, gradient, onset);
@@ -257,22 +255,20 @@ inline void unpack_gradients(const Kinematics* k, std::size_t count, core::Mat<R
 } // namespace detail
 
 /// Advance the particles [begin, end) of one cell; `move(first, count, k)` is stage one of a chunk.
-/// @tparam Plain  the cell is: the loops have a length the compiler knows
+/// @tparam Plain  the cell is: one group of whole chunks
 template <bool Plain = false, class Move>
 [[gnu::always_inline]] inline void
 advance_group(const PassOptions& options, const LawTable& laws, const CellFrame& frame, std::size_t begin,
               std::size_t end, particles::Particles& particles, LeafOutcome& outcome, const Move& move)
 {
-    constexpr std::size_t group_size = Plain ? plain_size : detail::group_size;
-    if constexpr (Plain) end = begin + plain_size;
-    for (std::size_t first = begin; first < end; first += group_size) {
-        const std::size_t last = Plain ? end : std::min(end, first + group_size);
-        detail::Kinematics k[group_size / Lanes::lanes];
+    for (std::size_t first = begin; first < end; first += group_size<Plain>) {
+        const std::size_t last = Plain ? end : std::min(end, first + group_size<Plain>);
+        detail::Kinematics k[group_size<Plain> / Lanes::lanes];
         Real volume = 0;
         Real dilated = 0;
         std::size_t c = 0;
         for (std::size_t p = first; p < last; p += Lanes::lanes, ++c) {
-            const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
+            const int count = Plain ? Lanes::lanes : static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
             // Two copies: without a tail the compiler drops every test of `count`.
             count == Lanes::lanes ? move(p, Lanes::lanes, k[c]) : move(p, count, k[c]);
             volume += core::sum(core::select(k[c].averaged, k[c].volume, Lanes(Real(0))));
@@ -282,7 +278,7 @@ advance_group(const PassOptions& options, const LawTable& laws, const CellFrame&
         bool near_onset = false;
         c = 0;
         for (std::size_t p = first; p < last; p += Lanes::lanes, ++c) {
-            const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
+            const int count = Plain ? Lanes::lanes : static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
             count == Lanes::lanes ? detail::update_stress<Plain>(options, laws, frame.per_spacing, k[c],
                                                                  mean_dilatation, p, Lanes::lanes, particles, outcome)
                                   : detail::update_stress<false>(options, laws, frame.per_spacing, k[c],

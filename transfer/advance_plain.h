@@ -1,6 +1,6 @@
-/// Both halves of a step for a plain cell, eight particles that are at home, of one law and without decohesion state:
-/// grid to particles, material, particles to grid. What the first half computes goes to the second in registers, no
-/// particle is asked for anything; the arithmetic is that of advance_cell and scatter_cell, and so are the bits.
+/// Both halves of a step for a plain cell, whose particles are at home, of one law and without decohesion state: grid
+/// to particles, material, particles to grid. What the first half computes goes to the second in registers, no particle
+/// is asked for anything; the arithmetic is that of advance_cell and scatter_cell, and so are the bits.
 #pragma once
 
 #include "transfer/advance_cell.h"
@@ -8,19 +8,19 @@
 
 namespace transfer
 {
-/// Advance the eight particles from `begin` on, and add them to the leaf's sums.
-/// @pre is_plain(particles, begin, begin + plain_size)
+/// Advance the particles [begin, end), and add them to the leaf's sums.
+/// @pre is_plain(particles, begin, end)
 template <Formulation F, Transfer T, StressUpdate S>
 [[gnu::noinline]] void advance_plain(const PassOptions& options, const LawTable& laws, const CellFrame& frame,
-                                     const grid::NodeMotion* motion, std::size_t begin, particles::Particles& particles,
-                                     LeafOutcome& outcome, grid::NodeSum* sums)
+                                     const grid::NodeMotion* motion, std::size_t begin, std::size_t end,
+                                     particles::Particles& particles, LeafOutcome& outcome, grid::NodeSum* sums)
 {
     constexpr int width = Lanes::lanes;
-    constexpr std::size_t chunks = plain_size / Lanes::lanes;
+    const std::size_t chunks = (end - begin) / Lanes::lanes;
     CellField field;
     read_cell(motion + frame.node, field);
-    detail::Kinematics k[chunks];
-    Given given[chunks];
+    detail::Kinematics k[plain_size / Lanes::lanes];
+    Given given[plain_size / Lanes::lanes];
     const std::size_t leavers = outcome.leaver.size();
     Real volume = 0;
     Real dilated = 0;
@@ -39,12 +39,12 @@ template <Formulation F, Transfer T, StressUpdate S>
         near_onset = near_onset || (laws.any_decohesion && core::any(k[c].may_start));
         if constexpr (F == Formulation::updated) add_pressure(given[c], k[c].averaged, pressure);
     }
-    if (near_onset) detail::test_onset(options, laws, frame, k, begin, begin + plain_size, particles, outcome.onset);
+    if (near_onset) detail::test_onset(options, laws, frame, k, begin, end, particles, outcome.onset);
     if (outcome.leaver.size() != leavers) // those are added to the cell they have come to
-        return scatter_cell<F, T>(frame, Visitors::residents, laws, particles, begin, begin + plain_size, sums);
+        return scatter_cell<F, T>(frame, Visitors::residents, laws, particles, begin, end, sums);
     Staged<plain_size> staged;
     for (std::size_t c = 0; c < chunks; ++c)
         stage<F>(frame, given[c], k[c].averaged, pressure.mean(), static_cast<int>(c) * width, staged);
-    add_staged<F, T, true>(frame, staged, plain_size, particles, begin, sums);
+    add_staged<F, T, true>(frame, staged, static_cast<int>(end - begin), particles, begin, sums);
 }
 } // namespace transfer

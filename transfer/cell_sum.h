@@ -11,6 +11,8 @@
 #include "core/tensor.h"
 #include "grid/levels.h"
 
+#include <algorithm>
+
 namespace transfer
 {
 /// Nodes of a cell that are served at once; lane n of part `first` is node first + n, and node 4i + 2j + k is corner
@@ -116,9 +118,10 @@ template <int N, class Rate>
 }
 
 /// Add the sums of N nodes from `first` on.
+/// @tparam Momentum    the force is zero: only the first half of each node's line is touched
 /// @param per_spacing  1 / spacing
 /// @param node         the cell's lower-corner node in a sum tile
-template <int N>
+template <bool Momentum = false, int N>
 [[gnu::always_inline]] inline void write_sums(const CellSum<N>& sum, int first, Real per_spacing, grid::NodeSum* node)
 {
     using V = core::Pack<Real, N>;
@@ -132,7 +135,8 @@ template <int N>
     for (int a = 0; a < 3; ++a)
         line[4 + a] = sum.force[a][0] * sign_x + sum.force[a][1] * sign_y + sum.force[a][2] * sign_z;
     line[7] = V(Real(0));
-    for (int place = 0; place < 8; place += N) {
+    constexpr int end = Momentum ? std::max(N, 4) : 8;
+    for (int place = 0; place < end; place += N) {
         V square[N];
         for (int n = 0; n < N; ++n) square[n] = line[place + n];
         core::transpose(square);

@@ -155,20 +155,32 @@ enum class Visitors
     everyone,  // all particles stored under the cell (gimp)
 };
 
-/// Particles of a plain cell: functions with `Plain` set know that every lane is a particle at home, that one law
-/// serves all and nobody has decohesion state.
+/// Particles of a plain cell at most: functions with `Plain` set know that every lane is a particle at home, that one
+/// law serves all and nobody has decohesion state.
 inline constexpr int plain_size = 8;
 
-/// Most cells of most steps are plain.
+/// Particles of a cell worked on together at most; in cells that are not plain, more do not meet.
+template <bool Plain>
+inline constexpr std::size_t group_size = Plain ? plain_size : 64;
+
+/// Whole chunks of particles, all at home.
+inline bool all_at_home(const particles::Particles& particles, std::size_t begin, std::size_t end)
+{
+    if (end - begin > plain_size || (end - begin) % Lanes::lanes != 0) return false;
+    for (std::size_t p = begin; p < end; p += Lanes::lanes)
+        if (any_set(particles.away.data() + p, Lanes::lanes)) return false;
+    return true;
+}
+
+/// Most cells of most steps are plain; with short vectors cells filled by half are, too.
 inline bool is_plain(const particles::Particles& particles, std::size_t begin, std::size_t end)
 {
-    if (end - begin != plain_size) return false;
+    if (!all_at_home(particles, begin, end)) return false;
     for (std::size_t p = begin; p < end; p += Lanes::lanes)
-        if (any_set(particles.away.data() + p, Lanes::lanes) ||
-            !all_equal(particles.material.data() + p, Lanes::lanes) ||
+        if (!all_equal(particles.material.data() + p, Lanes::lanes) ||
             particles.material[p] != particles.material[begin])
             return false;
-    return particles.cracks.empty() || none_cracked(particles.crack.data() + begin, plain_size);
+    return particles.cracks.empty() || none_cracked(particles.crack.data() + begin, static_cast<int>(end - begin));
 }
 
 /// Every lane.

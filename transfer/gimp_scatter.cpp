@@ -58,13 +58,14 @@ template <Transfer T>
     });
 }
 
-/// Eight particles that are at home, of one law and intact: each column is read once.
+/// Particles of a plain cell: each column is read once.
 template <Transfer T>
-void add_plain(const BoxTarget& target, const LawTable& laws, const particles::Particles& particles, std::size_t begin)
+void add_plain(const BoxTarget& target, const LawTable& laws, const particles::Particles& particles, std::size_t begin,
+               std::size_t end)
 {
-    constexpr std::size_t chunks = plain_size / Lanes::lanes;
+    const std::size_t chunks = (end - begin) / Lanes::lanes;
     constexpr int width = Lanes::lanes;
-    Given given[chunks];
+    Given given[plain_size / Lanes::lanes];
     CellPressure pressure;
     const LaneMask averaged = law_lanes<true>(laws, particles, begin, width).averaged;
     for (std::size_t c = 0; c < chunks; ++c) {
@@ -116,7 +117,7 @@ void scatter_leaf_with(const PassOptions& options, const LawTable& laws, const g
     for (int c = 0; c < grid::leaf_cells; ++c) {
         if (start[c] == start[c + 1]) continue;
         if (is_plain(particles, start[c], start[c + 1]))
-            add_plain<T>(target, laws, particles, start[c]);
+            add_plain<T>(target, laws, particles, start[c], start[c + 1]);
         else
             add_any<T>(target, laws, particles, start[c], start[c + 1]);
     }

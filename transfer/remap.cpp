@@ -45,28 +45,29 @@ remapped(const PassOptions& options, const CellFrame& frame, const CellField& fi
 }
 
 /// Update the velocity (and affine matrix) of the particles [begin, end) that are served, and scatter their momentum.
+/// @tparam AtHome  all_at_home(particles, begin, end)
 /// @param masters  of the cell's hanging corners; null if it has none
-template <Formulation F, Transfer T>
+template <Formulation F, Transfer T, bool AtHome>
 void remap_cell(const PassOptions& options, const CellFrame& frame, Visitors visitors, const HangingSlopes* masters,
                 const grid::NodeMotion* motion, std::size_t begin, std::size_t end, particles::Particles& particles,
                 grid::NodeSum* tile)
 {
     CellField field;
     read_cell(motion + frame.node, field);
-    constexpr int group = 64;
-    Staged<group> staged;
-    for (std::size_t first = begin; first < end; first += group) {
-        const std::size_t last = std::min<std::size_t>(end, first + group);
+    Staged<group_size<AtHome>> staged;
+    for (std::size_t first = begin; first < end; first += group_size<AtHome>) {
+        const std::size_t last = AtHome ? end : std::min(end, first + group_size<AtHome>);
         for (std::size_t p = first; p < last; p += Lanes::lanes) {
-            const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
+            const int count = AtHome ? Lanes::lanes : static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
             const int at = static_cast<int>(p - first);
-            const LaneMask here = present<F>(visitors, particles, p, count);
+            const LaneMask here = present<F, AtHome>(visitors, particles, p, count);
             const auto x = load_all<core::Vec<Lanes>>(weight_position<F>(particles), p, count);
             const core::Vec<Lanes> velocity = remapped<T>(options, frame, field, masters, x, here, p, count, particles);
             stage_momentum(frame, x, load(particles.mass, p, count), velocity, at, staged);
-            for (int i = 0; i < count; ++i) staged.here[at + i] = here[i] ? 1 : 0;
+            if constexpr (!AtHome)
+                for (int i = 0; i < count; ++i) staged.here[at + i] = here[i] ? 1 : 0;
         }
-        add_staged<F, T, false, true>(frame, staged, static_cast<int>(last - first), particles, first, tile);
+        add_staged<F, T, AtHome, true>(frame, staged, static_cast<int>(last - first), particles, first, tile);
     }
 }
 
@@ -104,8 +105,13 @@ void remap_momentum(const PassOptions& options, Strays& strays, particles::Parti
             for (int c = 0; c < grid::leaf_cells; ++c) {
                 if (start[c] == start[c + 1]) continue;
                 const std::optional<HangingSlopes> masters = slopes_of<T>(levels, hanging, n, c);
-                remap_cell<F, T>(options, cell_frame(frame, c), Visitors::residents, masters ? &*masters : nullptr,
-                                 levels.motions(n), start[c], start[c + 1], particles, tile);
+                const auto remap = [&]<bool AtHome>() {
+                    remap_cell<F, T, AtHome>(options, cell_frame(frame, c), Visitors::residents,
+                                             masters ? &*masters : nullptr, levels.motions(n), start[c], start[c + 1],
+                                             particles, tile);
+                };
+                all_at_home(particles, start[c], start[c + 1]) ? remap.template operator()<true>()
+                                                               : remap.template operator()<false>();
             }
             scatter_affine(options, particles, n, levels);
         });
@@ -116,9 +122,9 @@ void remap_momentum(const PassOptions& options, Strays& strays, particles::Parti
                 const std::uint32_t p = strays.particle[s];
                 const HangingRange hanging = hanging_for<T>(levels, leaf);
                 const std::optional<HangingSlopes> masters = slopes_of<T>(levels, hanging, leaf, strays.cell[s]);
-                remap_cell<F, T>(options, cell_frame(leaf_frame(levels, leaf), strays.cell[s]), Visitors::stray,
-                                 masters ? &*masters : nullptr, levels.motions(leaf), p, p + 1, particles,
-                                 levels.sums(leaf));
+                remap_cell<F, T, false>(options, cell_frame(leaf_frame(levels, leaf), strays.cell[s]), Visitors::stray,
+                                        masters ? &*masters : nullptr, levels.motions(leaf), p, p + 1, particles,
+                                        levels.sums(leaf));
             }
         });
     });

@@ -18,7 +18,7 @@ struct CellPressure
 };
 
 /// What the node lanes broadcast, one entry per particle, up to Capacity of them.
-template <int Capacity>
+template <std::size_t Capacity>
 struct Staged
 {
     alignas(64) Real xi[Capacity], eta[Capacity], zeta[Capacity], mass[Capacity];
@@ -71,7 +71,7 @@ inline void reduce_to_solid(const particles::Particles& particles, std::size_t b
 } // namespace detail
 
 /// Mass and momentum of a chunk, from entry `at` on.
-template <int Capacity>
+template <std::size_t Capacity>
 [[gnu::always_inline]] inline void stage_momentum(const CellFrame& frame, const core::Vec<Lanes>& position, Lanes mass,
                                                   const core::Vec<Lanes>& velocity, int at, Staged<Capacity>& staged)
 {
@@ -85,7 +85,7 @@ template <int Capacity>
 
 /// A chunk, from entry `at` on.
 /// @param averaged  lanes that take the cell's mean pressure; updated formulation only
-template <Formulation F, int Capacity>
+template <Formulation F, std::size_t Capacity>
 [[gnu::always_inline]] inline void stage(const CellFrame& frame, const Given& given, LaneMask averaged,
                                          Real mean_pressure, int at, Staged<Capacity>& staged)
 {
@@ -101,7 +101,7 @@ template <Formulation F, int Capacity>
 
 namespace detail
 {
-template <Transfer T, int N, int Capacity>
+template <Transfer T, int N, std::size_t Capacity>
 [[gnu::always_inline]] inline CornerWeights<N>
 add_motion(const CellFrame& frame, const Corners<N>& corners, const Staged<Capacity>& staged, int i,
            const particles::Particles& particles, std::size_t p, CellSum<N>& sum)
@@ -120,7 +120,7 @@ add_motion(const CellFrame& frame, const Corners<N>& corners, const Staged<Capac
 
 /// Add the first `count` staged particles, `begin` the first of them, to the nodes: mass, momentum and force, or
 /// momentum alone.
-template <Formulation F, Transfer T, bool All, bool Momentum = false, int Capacity>
+template <Formulation F, Transfer T, bool All, bool Momentum = false, std::size_t Capacity>
 [[gnu::always_inline]] inline void add_staged(const CellFrame& frame, const Staged<Capacity>& staged, int count,
                                               const particles::Particles& particles, std::size_t begin,
                                               grid::NodeSum* tile)
@@ -138,7 +138,7 @@ template <Formulation F, Transfer T, bool All, bool Momentum = false, int Capaci
             add_force(
                 weights, [&](int a, int b) { return staged.stress_volume[detail::flux_place<F>(a, b)][i]; }, sum);
         }
-        write_sums(sum, first, frame.per_spacing, tile + frame.node);
+        write_sums<Momentum>(sum, first, frame.per_spacing, tile + frame.node);
     }
 }
 
@@ -181,10 +181,9 @@ template <Formulation F, Transfer T>
 {
     CellPressure pressure;
     if constexpr (F == Formulation::updated) pressure = pressure_of(visitors, laws, particles, begin, end);
-    constexpr int group = 64;
-    Staged<group> staged;
-    for (std::size_t first = begin; first < end; first += group) {
-        const std::size_t last = std::min<std::size_t>(end, first + group);
+    Staged<group_size<false>> staged;
+    for (std::size_t first = begin; first < end; first += group_size<false>) {
+        const std::size_t last = std::min(end, first + group_size<false>);
         for (std::size_t p = first; p < last; p += Lanes::lanes) {
             const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
             const int at = static_cast<int>(p - first);

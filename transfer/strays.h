@@ -31,7 +31,7 @@ struct Strays
 };
 
 /// Share of strays above which reordering all particles is cheaper than serving them (kernels.md 4).
-inline constexpr Real reorder_share = 0.02;
+inline constexpr Real reorder_share = 0.01;
 
 bool worth_reordering(const Strays& strays, const particles::Particles& particles);
 

@@ -239,16 +239,20 @@ TEST(Checkpoint, RefusesAnotherCaseAndSaysWhatDiffers)
     EXPECT_PRED2(contains, message, "'cell = 0.25' there and 'cell = 0.125' here");
 }
 
-// The end says when to stop and changes no step before it; what comes after it in the text counts again.
-TEST(Checkpoint, AnotherEndIsTheSameCase)
+// When to stop and when to keep a state change no step; what comes after them in the text counts again.
+TEST(Checkpoint, AnotherEndOrIntervalIsTheSameCase)
 {
-    const auto of_case = [](const std::string& end, const std::string& output) {
-        return io::CheckpointCase{this_case.resolved + "[end]\n" + end + "\n[output.history]\n" + output, "0.1.0"};
-    };
-    const support::Folder folder;
-    io::write_checkpoint(folder.path(), sample::state(), of_case("cod = 6.2\n", "every_cod = 0.1\n"), 2);
-    EXPECT_TRUE(io::resume(folder.path(), of_case("time = 9\ncod = 10\n", "every_cod = 0.1\n"), no_warning));
-    EXPECT_THROW(io::resume(folder.path(), of_case("cod = 6.2\n", "every_cod = 0.2\n"), no_warning), core::InputError);
+    for (const std::string section : {"[end]\n", "[output.checkpoint]\n"}) {
+        const auto of_case = [&](const std::string& free, const std::string& output) {
+            return io::CheckpointCase{this_case.resolved + section + free + "\n[output.history]\n" + output, "0.1.0"};
+        };
+        const support::Folder folder;
+        io::write_checkpoint(folder.path(), sample::state(), of_case("keep = 2\n", "every_cod = 0.1\n"), 2);
+        EXPECT_TRUE(io::resume(folder.path(), of_case("at = 9\nkeep = 3\n", "every_cod = 0.1\n"), no_warning))
+            << section;
+        EXPECT_THROW(io::resume(folder.path(), of_case("keep = 2\n", "every_cod = 0.2\n"), no_warning),
+                     core::InputError);
+    }
 }
 
 TEST(Checkpoint, DistinguishesNoneFromNoneReadable)
