@@ -138,7 +138,7 @@ void add_bench(CLI::App& program, Command& chosen)
     command->add_option("--steps", options->steps, "steps measured per scheme, in five rounds; the median counts")
         ->check(CLI::Range(1, 10000));
     command->add_option("--threads", options->threads, "thread counts (default: 1 and all)")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 1024));
     command->add_option("--basis", options->basis, "only schemes of this basis")
         ->check(CLI::IsMember({"trilinear", "gimp"}));
     command->add_option("--formulation", options->formulation, "only schemes of this formulation")

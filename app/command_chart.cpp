@@ -5,6 +5,7 @@
 #include "app/commands.h"
 #include "app/exit_code.h"
 #include "app/leave_one_out.h"
+#include "app/shell_word.h"
 #include "app/source_tree.h"
 #include "app/stop_request.h"
 #include "app/walltime_option.h"
@@ -85,11 +86,13 @@ void keep_scenes(const std::vector<std::string>& wanted, io::Suite& suite)
 void draw(const fs::path& directory)
 {
     const std::optional<fs::path> script = source_file("tools/plot_chart.py");
-    const fs::path log = directory / "plots.log";
-    const std::string command =
-        script ? fmt::format("/usr/bin/python3 '{}' '{}' -o '{}' > '{}' 2>&1", script->string(),
-                             (directory / "chart.csv").string(), (directory / "plots").string(), log.string())
-               : "false";
+    const fs::path log = directory / "plots.log", plots = directory / "plots";
+    io::write_file(log, "");
+    fs::remove_all(plots); // those of an earlier chart are not this one's
+    const auto word = [](const fs::path& path) { return shell_word(path.string()); };
+    const std::string command = script ? fmt::format("/usr/bin/python3 {} {} -o {} > {} 2>&1", word(*script),
+                                                     word(directory / "chart.csv"), word(plots), word(log))
+                                       : "false";
     if (script && std::system(command.c_str()) == 0) return;
     fmt::print(stderr, "no pictures: {}\nThe tables are complete.\n",
                !script ? "tools/plot_chart.py is not beside this program"
@@ -203,11 +206,11 @@ void add_chart(CLI::App& program, Command& chosen)
     options->study.whole_cost = true;
     command->add_option("SUITE", options->suite,
                         "suite file (default: cases/chart/full.toml, with --quick quick.toml)");
-    command->add_flag("--quick", options->quick, "the quick suite: under 10 minutes on two cores");
+    command->add_flag("--quick", options->quick, "the quick suite: 4 to 12 minutes on two cores, by their speed");
     command->add_option("-o,--output", options->directory, "directory (default: results/chart or results/chart-quick)");
     command->add_option("--scene", options->scenes, "only this scene; may be repeated")->allow_extra_args(false);
     command->add_option("--jobs", options->study.jobs, "runs at a time, one thread each (default: all threads)")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 1024));
     add_walltime(*command, options->study.walltime,
                  "stop with checkpoints and exit code 75 after this time; the same command goes on");
     command->add_flag("--again", options->study.again, "repeat finished runs, too");

@@ -73,7 +73,7 @@ void print_forecast(const solver::Problem& problem, const Forecast& forecast, in
     if (forecast.kinetic_share > 0)
         fmt::print("inertia      kinetic energy about {:.2g} % of the elastic energy at yield{}\n",
                    100 * forecast.kinetic_share,
-                   forecast.kinetic_share > 0.05 ? "; warning: slower loading or a longer ramp" : "");
+                   forecast.kinetic_share > 0.05 ? ": slower loading or a longer ramp would show less of it" : "");
 }
 
 int check(const Options& options)
@@ -97,7 +97,7 @@ void add_check(CLI::App& program, Command& chosen)
     command->add_option("CASE", options->file, "case file")->required();
     command->add_option("--set", options->overrides, "key=value, such as grid.cell=0.5; may be repeated")
         ->allow_extra_args(false);
-    command->add_option("--threads", options->threads, "threads to forecast for")->check(CLI::PositiveNumber);
+    command->add_option("--threads", options->threads, "threads to forecast for")->check(CLI::Range(1, 1024));
     command->callback([&chosen, options] { chosen = [options] { return check(*options); }; });
 }
 } // namespace app

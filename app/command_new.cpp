@@ -2,12 +2,12 @@
 #include "app/commands.h"
 #include "app/template.h"
 #include "core/error.h"
+#include "io/atomic_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 namespace app
@@ -20,10 +20,7 @@ int write_new_case(std::string name)
     if (file.extension() != ".toml") file += ".toml";
     if (std::filesystem::exists(file))
         throw core::FileError(fmt::format("'{}' exists already: choose another name", file.string()));
-    std::ofstream stream(file);
-    stream << case_template(file.stem().string());
-    stream.close();
-    if (!stream) throw core::FileError(fmt::format("cannot write '{}'", file.string()));
+    io::write_file(file, case_template(file.stem().string()));
     fmt::print("wrote {0}; next: cleave check {0}\n", file.string());
     return 0;
 }

@@ -8,6 +8,7 @@
 #include "app/run_files.h"
 #include "app/run_options.h"
 #include "app/stop_request.h"
+#include "app/wall_clock.h"
 #include "app/walltime_option.h"
 #include "core/error.h"
 #include "io/grid_file.h"
@@ -37,11 +38,6 @@ struct Run
     solver::State state;
 };
 
-double seconds_since(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// State and files from the newest checkpoint, or from time 0 if there is none.
 void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
 {
@@ -57,6 +53,7 @@ void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
                 fmt::format("{} holds a finished run without a checkpoint (output.checkpoint.at_end): nothing to "
                             "resume. --force replaces it.",
                             files.directory.string()));
+        start_files(files);
         run.state = solver::initialise(run.problem, run.prepared, run.derived);
         files.history = std::make_unique<io::HistoryFile>(files.directory / "history.csv", run.problem.grid.levels);
         files.record.particles_start = solver::particles_per_level(run.state);
@@ -68,6 +65,11 @@ void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
         return;
     }
     const io::RunRecord before = io::read_run_record(files.directory / "run.json");
+    files.record.particles_start = before.particles_start;
+    files.record.particle_steps = before.particle_steps;
+    files.wall_before = before.wall_s;
+    files.cpu_before = before.cpu_s;
+    continue_files(files);
     run.state = std::move(*stored);
     solver::resume(run.problem, run.prepared, run.state, run.derived);
     // A run that ended has one line more than its state: the end cut a mean short that now goes on.
@@ -79,10 +81,6 @@ void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
     io::rewind_particle_series(files.directory / "particles", run.state.clock.time);
     io::rewind_grid_series(files.directory / "grid", run.state.clock.time);
     files.vdb_frame = io::last_vdb_frame(files.directory / "vdb", run.state.clock.step);
-    files.record.particles_start = before.particles_start;
-    files.record.particle_steps = before.particle_steps;
-    files.wall_before = before.wall_s;
-    files.cpu_before = before.cpu_s;
     Real largest = 0;
     for (const solver::HistoryLine& line : run.state.history) largest = std::max(largest, line.cod);
     for (Schedule* schedule :
@@ -142,6 +140,9 @@ int run_case(const RunOptions& options)
     const auto directory = result_directory(options);
     RunFiles files = open_files(directory, read);
     Log log(directory / "log.txt");
+    if (!log.lock())
+        throw core::InputError(
+            fmt::format("another run is writing to {}: wait for it, or choose another -o", directory.string()));
     for (const std::string& warning : read.warnings) log.line(warning);
     const int hardware = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     const int threads = options.threads > 0 ? options.threads : hardware;
@@ -157,8 +158,9 @@ int run_case(const RunOptions& options)
         begin(options, log, run, files);
         write_events(run.problem, run.state, files);
         io::return_free_memory();
-        log.line(fmt::format("cleave {}: {}\n{} particles, {} threads, results in {}", CLEAVE_VERSION,
-                             read.problem.title, run.state.particles.size(), threads, directory.string()));
+        log.line(fmt::format("cleave {}: {}\n{} particles, {} thread{}, results in {}", CLEAVE_VERSION,
+                             read.problem.title, run.state.particles.size(), threads, threads == 1 ? "" : "s",
+                             directory.string()));
         write_record(run.problem, run.state, 0, files);
         const Ending ending = loop(options, log, run, files, start);
         if (ending == Ending::done) {
@@ -173,14 +175,9 @@ int run_case(const RunOptions& options)
         write_record(run.problem, run.state, seconds_since(start), files);
         log.line(measure_table(files.record, run.problem));
         return ending == Ending::done ? exit_done : exit_stopped;
-    } catch (const core::NumericalError& error) {
-        files.record.status = "failed";
-        files.record.exit_reason = error.what();
-        if (run.state.particles.size() > 0)
-            write_record(run.problem, run.state, seconds_since(start), files);
-        else
-            write_status(seconds_since(start), files); // it failed before there was a state
+    } catch (const std::exception& error) {
         log.file_line(error.what());
+        record_failure(run.problem, run.state, error.what(), seconds_since(start), files);
         throw;
     }
 }
@@ -192,11 +189,12 @@ void add_run(CLI::App& program, Command& chosen)
     const auto options = std::make_shared<RunOptions>();
     command->add_option("CASE", options->file, "case file")->required();
     command->add_option("-o,--output", options->directory, "result directory (default: results/<name of the case>)");
-    command->add_option("--threads", options->threads, "threads (default: all)")->check(CLI::PositiveNumber);
+    command->add_option("--threads", options->threads, "threads (default: all)")->check(CLI::Range(1, 1024));
     command->add_option("--set", options->overrides, "key=value, such as grid.cell=0.5; may be repeated")
         ->allow_extra_args(false);
-    command->add_flag("--resume", options->resume, "go on from the newest checkpoint in the result directory");
-    command->add_flag("--force", options->force, "replace a run that the result directory holds");
+    CLI::Option* resume =
+        command->add_flag("--resume", options->resume, "go on from the newest checkpoint in the result directory");
+    command->add_flag("--force", options->force, "replace a run that the result directory holds")->excludes(resume);
     command->add_flag("--no-frames", options->no_frames, "write no particle, grid and volume files");
     add_walltime(*command, options->walltime,
                  "stop with a checkpoint and exit code 75 after this time: 90 (s), 3:50:00, 45min");

@@ -100,7 +100,7 @@ void add_sweep(CLI::App& program, Command& chosen)
     command->add_option("SWEEP", options->file, "sweep file (cleave keys sweep)")->required();
     command->add_option("-o,--output", options->directory, "directory (default: results/<name of the sweep>)");
     command->add_option("--jobs", options->jobs, "runs at a time (default: all threads over the threads of a run)")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 1024));
     add_walltime(*command, options->study.walltime,
                  "stop with checkpoints and exit code 75 after this time; the same command goes on");
     command->add_flag("--again", options->study.again, "repeat finished runs, too");

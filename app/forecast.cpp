@@ -18,17 +18,6 @@ namespace
 {
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
-geometry::Bounds bounds_of_all(const solver::Problem& problem)
-{
-    geometry::Bounds all = problem.bodies.front().shape.bounds();
-    for (const solver::Body& body : problem.bodies) {
-        const geometry::Bounds own = body.shape.bounds();
-        all.lower = all.lower.cwiseMin(own.lower);
-        all.upper = all.upper.cwiseMax(own.upper);
-    }
-    return all;
-}
-
 refine::Lattice lattice_of(const solver::Problem& problem)
 {
     return {problem.grid.cell, problem.grid.origin, problem.grid.levels};
@@ -169,7 +158,7 @@ std::string grid_sections(const std::string& resolved)
 ParticleCount count_particles(const solver::Problem& problem)
 {
     const refine::Lattice lattice = lattice_of(problem);
-    const grid::Refinement refinement = refine::refinement_of(problem.zones, lattice, bounds_of_all(problem));
+    const grid::Refinement refinement = refine::refinement_of(problem.zones, lattice, problem.bounds());
     const int per_axis = static_cast<int>(std::lround(std::cbrt(problem.grid.particles_per_cell)));
     const Real thickness = 8 * problem.grid.cell;
     std::set<LeafKey> leaves;
@@ -225,7 +214,7 @@ Forecast forecast(const solver::Problem& problem, const ParticleCount& counted)
 
 std::string level_map(const solver::Problem& problem, int columns)
 {
-    const geometry::Bounds bounds = bounds_of_all(problem);
+    const geometry::Bounds bounds = problem.bounds();
     const Vec3 size = bounds.upper - bounds.lower;
     int through = 0;
     size.minCoeff(&through);

@@ -3,6 +3,7 @@
 #include "io/atomic_file.h"
 
 #include <cerrno>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace app
@@ -14,6 +15,11 @@ Log::Log(const std::filesystem::path& path, std::FILE* out, bool terminal)
 }
 
 Log::Log(const std::filesystem::path& path) : Log(path, stdout, ::isatty(STDOUT_FILENO) == 1) {}
+
+bool Log::lock()
+{
+    return ::flock(::fileno(file_), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; // some file systems have no locks
+}
 
 Log::~Log()
 {

@@ -18,6 +18,9 @@ public:
     Log(const std::filesystem::path& path, std::FILE* out, bool terminal);
     /// The same on standard output.
     explicit Log(const std::filesystem::path& path);
+    /// Keep the file to oneself while the log lives.
+    /// @return false if another run holds it
+    bool lock();
     ~Log();
     Log(const Log&) = delete;
     Log& operator=(const Log&) = delete;

@@ -1,12 +1,32 @@
 /// Entry point: reads the command line, runs one command, turns errors into exit codes (docs: design, section 1).
 #include "app/commands.h"
 #include "app/exit_code.h"
+#include "io/diagnostics.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
 
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
+
+namespace
+{
+/// What to say if `name` is no command; nothing if it is one.
+std::string complaint(const CLI::App& program, const std::string& name)
+{
+    std::vector<std::string> names;
+    for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    if (std::find(names.begin(), names.end(), name) != names.end()) return "";
+    const std::string near = io::nearest_name(name, names);
+    return fmt::format("there is no command '{}'{}\ncommands: {}\n", name,
+                       near.empty() ? "" : fmt::format("; did you mean '{}'?", near), io::joined(names));
+}
+} // namespace
 
 int main(int argc, char** argv)
 {
@@ -30,6 +50,11 @@ int main(int argc, char** argv)
     app::add_info(program, chosen);
     app::add_report(program, chosen);
     app::add_metric(program, chosen);
+    if (argc > 1 && argv[1][0] != '-')
+        if (const std::string text = complaint(program, argv[1]); !text.empty()) {
+            std::fputs(text.c_str(), stderr);
+            return app::exit_bad_input;
+        }
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {

@@ -1,5 +1,6 @@
 #include "app/progress.h"
 
+#include "app/wall_clock.h"
 #include "io/process_memory.h"
 
 #include <fmt/format.h>
@@ -30,12 +31,6 @@ std::string short_count(std::uint64_t count)
     if (count < 1000) return std::to_string(count);
     if (value < 999500) return fmt::format("{:.{}f}k", value / 1e3, value < 9950 ? 1 : 0);
     return fmt::format("{:.{}f}M", value / 1e6, value < 99.5e6 ? 1 : 0);
-}
-
-std::string clock_time(Real seconds)
-{
-    const auto s = static_cast<std::int64_t>(std::llround(seconds));
-    return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
 std::string force_text(Real force)

@@ -224,9 +224,9 @@ std::string report_page(const Report& report)
     const std::string title = escape_xml(report.record.title);
     std::string html = fmt::format(page_head, title, title);
     html += run_table(report.record);
-    if (report.problem.symmetry_factor() != 1)
+    if (report.problem.symmetry_factor(report.problem.force_axis) != 1)
         html += fmt::format("<p>Forces are those of the full specimen: {:g} times the modelled part.</p>\n",
-                            report.problem.symmetry_factor());
+                            report.problem.symmetry_factor(report.problem.force_axis));
     html += "<h2>Force and opening</h2>\n" + force_chart(report);
     html += "<h2>Measures</h2>\n" + measure_table(report);
     if (!report.events.empty())

@@ -72,6 +72,45 @@ bool wanted(const solver::OutputEvery& every)
 {
     return every.time || every.steps || every.cod;
 }
+
+/// What an earlier run has written; anything else stays.
+void remove_results(const fs::path& directory)
+{
+    for (const char* name : {"history.csv", "events.csv", "probes.csv", "report.html"}) fs::remove(directory / name);
+    struct Written
+    {
+        const char *folder, *begin, *end;
+    };
+    for (const Written& written : {Written{"checkpoint", "ck_", ".h5"},
+                                   {"checkpoint", "latest", ""},
+                                   {"particles", "p_", ".hdf"},
+                                   {"particles", "particles.hdf", ".series"},
+                                   {"grid", "g_", ".hdf"},
+                                   {"grid", "grid.hdf", ".series"},
+                                   {"vdb", "vol_", ".vdb"}})
+    {
+        const fs::path folder = directory / written.folder;
+        if (!fs::is_directory(folder)) continue;
+        std::vector<fs::path> found;
+        for (const auto& entry : fs::directory_iterator(folder))
+            if (const std::string name = entry.path().filename().string();
+                name.starts_with(written.begin) && name.ends_with(written.end))
+                found.push_back(entry.path());
+        for (const fs::path& file : found) fs::remove(file);
+        if (fs::is_empty(folder)) fs::remove(folder);
+    }
+}
+
+/// Make a directory that is not there yet.
+/// @return false if it is
+/// @error core::FileError
+bool make_new(const fs::path& directory)
+{
+    std::error_code error;
+    if (fs::create_directory(directory, error)) return true;
+    if (error) io::throw_file_error("make", directory, error.value());
+    return false;
+}
 } // namespace
 
 bool Schedule::due(const solver::Clock& clock, std::optional<Real> cod)
@@ -103,18 +142,22 @@ fs::path result_directory(const RunOptions& options)
             throw core::InputError(fmt::format("{} holds a run already. --resume continues it, --force replaces it, or "
                                                "choose another -o.",
                                                options.directory));
+        io::make_directory(options.directory);
         return options.directory;
     }
     const std::string name = fs::path(options.file).stem().string();
     fs::path directory = fs::path("results") / name;
-    if (options.resume || options.force) return directory;
-    for (int n = 2; holds_run(directory); ++n) directory = fs::path("results") / fmt::format("{}-{}", name, n);
+    if (options.resume || options.force) {
+        io::make_directory(directory);
+        return directory;
+    }
+    io::make_directory("results");
+    for (int n = 2; !make_new(directory); ++n) directory = fs::path("results") / fmt::format("{}-{}", name, n);
     return directory;
 }
 
 RunFiles open_files(const fs::path& directory, const io::Case& run_case)
 {
-    io::make_directory(directory);
     RunFiles files;
     files.directory = directory;
     files.of_case = {run_case.resolved, CLEAVE_VERSION};
@@ -126,8 +169,20 @@ RunFiles open_files(const fs::path& directory, const io::Case& run_case)
     files.particles_due.every = run_case.problem.output.particles;
     files.grid_due.every = run_case.problem.output.grid;
     files.vdb_due.every = run_case.problem.output.vdb;
-    io::write_file(directory / "resolved.toml", run_case.resolved);
     return files;
+}
+
+void start_files(RunFiles& files)
+{
+    if (holds_run(files.directory)) remove_results(files.directory);
+    continue_files(files);
+}
+
+void continue_files(RunFiles& files)
+{
+    files.claimed = true;
+    write_status(0, files);
+    io::write_file(files.directory / "resolved.toml", files.of_case.resolved);
 }
 
 void write_probes(const solver::Problem& problem, const solver::Prepared& prepared, const solver::Derived& derived,
@@ -196,6 +251,21 @@ void write_status(double wall_s, RunFiles& files)
     files.record.cpu_s = files.cpu_before + static_cast<Real>(std::clock() - files.cpu_start) / CLOCKS_PER_SEC;
     files.record.peak_rss_bytes = io::peak_resident_bytes();
     io::write_run_record(files.directory / "run.json", files.record);
+}
+
+void record_failure(const solver::Problem& problem, const solver::State& state, const std::string& reason,
+                    double wall_s, RunFiles& files)
+{
+    if (!files.claimed) return;
+    files.record.status = "failed";
+    files.record.exit_reason = reason;
+    try {
+        if (state.particles.size() > 0)
+            write_record(problem, state, wall_s, files);
+        else
+            write_status(wall_s, files); // it failed before there was a state
+    } catch (const core::FileError&) {
+    }
 }
 
 void write_record(const solver::Problem& problem, const solver::State& state, double wall_s, RunFiles& files)

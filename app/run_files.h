@@ -45,16 +45,29 @@ struct RunFiles
     int vdb_frame = 0;
     std::int64_t last_particles = -1, last_grid = -1, last_vdb = -1; // steps of the newest frames
     double last_checkpoint = 0;                                      // s, wall time since the start of this part
+    bool claimed = false;                                            // what run.json says is about this run
     double wall_before = 0, cpu_before = 0;                          // s, of the parts before a restart
     std::clock_t cpu_start = std::clock();                           // processor time of all threads
 };
 
-/// The directory a run writes to: `-o`, or results/<case>, or with a number behind it if that holds a run already.
+/// Make the directory a run writes to: `-o`, or results/<case>, or with a number behind it if that is there already, so
+/// that runs started at the same time have one each.
 /// @error core::InputError if `-o` names a directory that holds a run and neither --resume nor --force is given
 std::filesystem::path result_directory(const RunOptions& options);
 
-/// Create the directory, write resolved.toml and the first run.json.
+/// Schedules of a run; nothing is written yet: what the directory holds may be another run, and stay so.
 RunFiles open_files(const std::filesystem::path& directory, const io::Case& run_case);
+
+/// From here on the directory is this run's: remove what an earlier one left, write the first run.json ("running") and
+/// resolved.toml.
+void start_files(RunFiles& files);
+
+/// The same for a run that goes on from a checkpoint: what was written until then stays.
+void continue_files(RunFiles& files);
+
+/// Note in run.json why the run failed, if it is this run's. A full disk does not hide the reason.
+void record_failure(const solver::Problem& problem, const solver::State& state, const std::string& reason,
+                    double wall_s, RunFiles& files);
 
 /// Values of the measures now, to probes.csv; nothing if this step has them already.
 void write_probes(const solver::Problem& problem, const solver::Prepared& prepared, const solver::Derived& derived,

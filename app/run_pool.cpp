@@ -1,6 +1,7 @@
 #include "app/run_pool.h"
 
 #include "app/stop_request.h"
+#include "app/wall_clock.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 
@@ -30,11 +31,6 @@ struct Child
     std::size_t job = 0;
     Clock::time_point start;
 };
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 double seconds(const timeval& time)
 {

@@ -20,6 +20,6 @@ struct SceneFeatures
 
 SceneFeatures scene_features(const solver::Problem& problem);
 
-/// "plasticity, crack, localised feature", or "none of contact, ...".
+/// "plasticity, crack, localised feature", or "small elastic motion".
 std::string features_text(const SceneFeatures& features);
 } // namespace app

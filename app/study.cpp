@@ -2,6 +2,7 @@
 
 #include "app/exit_code.h"
 #include "app/forecast.h"
+#include "app/wall_clock.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/case.h"
@@ -63,12 +64,6 @@ std::optional<io::JobRecord> record_of_other(const StudyRun& run)
     const io::RunRecord other = io::read_run_record(run.directory / "run.json");
     if (other.status != "done") return {};
     return io::JobRecord{other.version, exit_done, false, 0, other.cpu_s, other.wall_s, other.peak_rss_bytes};
-}
-
-std::string clock_time(double seconds)
-{
-    const long s = std::lround(seconds);
-    return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
 /// Lines about runs that end, and how long the rest will take: the expected cost of each run, corrected by how wrong

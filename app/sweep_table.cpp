@@ -1,6 +1,7 @@
 #include "app/sweep_table.h"
 
 #include "app/exit_code.h"
+#include "app/shell_word.h"
 #include "core/error.h"
 #include "io/csv.h"
 #include "io/diagnostics.h"
@@ -73,14 +74,6 @@ SweepRow row_of(const io::Sweep& sweep, const StudyRun& run)
     for (const io::SweepTarget& target : sweep.targets)
         if (target.weight > 0) row.distance += target.weight * std::abs(relative_error(row, target));
     return row;
-}
-
-/// For a POSIX shell.
-std::string quoted(const std::string& word)
-{
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
 }
 } // namespace
 
@@ -159,14 +152,14 @@ std::string slurm_script(const io::Sweep& sweep, const std::vector<StudyRun>& ru
                     "cd {} || exit 1\n"
                     "case $SLURM_ARRAY_TASK_ID in\n",
                     runs.size() - 1, sweep.threads, sweep.title.empty() ? "sweep" : sweep.title, runs.size(),
-                    sweep.file.string(), quoted(std::filesystem::current_path().string()));
+                    sweep.file.string(), shell_word(std::filesystem::current_path().string()));
     StudyOptions options;
     options.threads = sweep.threads;
     for (std::size_t i = 0; i < runs.size(); ++i) {
         std::vector<std::string> words = run_arguments(runs[i], options);
         words.back() = "--resume"; // starts at time 0 where there is nothing yet
         std::string line = fmt::format("{}) set --", i);
-        for (const std::string& word : words) line += " " + quoted(word);
+        for (const std::string& word : words) line += " " + shell_word(word);
         text += line + " ;;\n";
     }
     return text + fmt::format("esac\n"
@@ -176,6 +169,6 @@ std::string slurm_script(const io::Sweep& sweep, const std::vector<StudyRun>& ru
                               "[ $code -le 128 ] || {{ wait $run; code=$?; }} # the signal ended the first wait\n"
                               "[ $code -ne 75 ] || scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\"\n"
                               "exit $code\n",
-                              quoted(program));
+                              shell_word(program));
 }
 } // namespace app

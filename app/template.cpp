@@ -50,6 +50,7 @@ yield_stress = "1100 MPa"
 tangent_modulus = "1150 MPa"
 [material.steel.decohesion] # leave it out and nothing breaks
 preset = "paper"
+second_crack = true # else broken metal goes on bridging cracks that run askew
 
 [[refine.zone]]
 name = "around the hole"

@@ -1,7 +1,7 @@
 # One GoogleTest binary per folder of tests/: test_<folder> from tests/<folder>/*_test.cpp.
 #
-# A folder named like a module links that module and has the label `unit`; any other (verification, stability,
-# regression, ...) links everything and has its own name as label. Tests with `Slow` in their name are labelled `slow`
+# A folder named like a module links that module and has the label `unit`; any other (verification,
+# regression) links everything and has its own name as label. Tests with `Slow` in their name are labelled `slow`
 # instead. Tests of a module with kernels run once per instruction set, each time hiding the better ones from the
 # dynamic loader. Test programs know the source tree as CLEAVE_SOURCE_DIR.
 find_package(GTest REQUIRED)

@@ -20,13 +20,13 @@ struct Crack
     std::array<Real, 3> slip{};          // mm, tangential opening u_t
     Real normal_strength = 0;            // MPa, tau_nf frozen at onset
     Real tangential_strength = 0;        // MPa, tau_tf frozen at onset
-    Real effective_length = 0;           // mm, L_e of the plane: frozen with it
+    Real effective_length = 0;           // mm, L_e of the plane
     Real surface_energy = 0;             // N/mm, U_0 used (after the snap-back policy)
-    Real snap_back_ratio = 0;            // 1, B_s = L_e / L_crit before the policy
+    Real snap_back_ratio = 0;            // 1, B_s = L_e / L_crit, L_crit that of the onset before the policy
     Real onset_time = 0;                 // ms
     Real separation_time = -1;           // ms, -1 while damage < 1
     Real second_time = -1;               // ms, when a second crack crossed this one; -1: none did
-    std::array<Real, 2> drop_traction{}; // MPa, |tau_n|, |tau_t| at onset for the brittle ramp
+    std::array<Real, 2> drop_traction{}; // MPa, <tau_n>, |tau_t| at onset for the brittle ramp
     std::int32_t mode = 0;               // 1 opening, 2 shear, 3 mixed
     std::uint32_t particle_id = 0;       // 1, id of the particle it belongs to
 };

@@ -7,7 +7,8 @@ namespace grid
 {
 /// Find the slave nodes of every level and the rows of P.
 ///
-/// A node of level l >= 1 is a slave if among the eight level-l cells around it at least one has its parent in C_{l-1}.
+/// A node of level l >= 1 is a slave if among the eight level-l cells around it one is active and one has its parent in
+/// C_{l-1}.
 /// Its masters are the tensor product over the axes of {i/2: 1} for an even, {(i-1)/2: 1/2, (i+1)/2: 1/2} for an odd
 /// index. All masters are corners of the coarse leaf cell the node touches.
 ///

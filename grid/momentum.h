@@ -12,7 +12,7 @@ namespace grid
 /// @param damping      1/ms, a
 /// @param mass_cutoff  g, per level: lighter nodes do not move
 /// @param dt           ms
-/// @param levels       reads assembled and restricted sums; writes motion of owned nodes, slaves excluded
+/// @param levels       reads assembled and restricted sums; writes motion of owned nodes; slaves get zeros
 void advance_momentum(const std::vector<WallPlane>& walls, const Vec3& gravity, Real damping,
                       const std::vector<Real>& mass_cutoff, Real dt, Levels& levels);
 

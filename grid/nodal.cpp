@@ -55,14 +55,16 @@ struct Damped
     {}
 };
 
-/// What the forces of slaves change in their masters' motion.
+/// What the forces of slaves change in their masters' motion. With damping, which excludes sub-cycling, the masters'
+/// forces have them too then, for whoever asks what velocity they began with.
 void push_masters(Real damping, Real dt, const LevelInterface& face, Levels& levels)
 {
     const Real reached_dt = Damped(damping, dt).reached * dt;
     core::parallel_for(face.master.size(), [&](std::size_t m) {
         const auto leaf = static_cast<std::size_t>(face.master[m].leaf);
         NodeMotion& motion = levels.motions(leaf)[face.master[m].node];
-        const Real impulse = reached_dt * levels.forces(leaf)[face.master[m].node].per_mass;
+        NodeForce& master = levels.forces(leaf)[face.master[m].node];
+        const Real impulse = reached_dt * master.per_mass;
         for (std::int32_t e = face.column_start[m]; e < face.column_start[m + 1]; ++e) {
             const auto entry = static_cast<std::size_t>(e);
             const NodeAddress& at = face.slave[static_cast<std::size_t>(face.column_slave[entry])];
@@ -71,6 +73,7 @@ void push_masters(Real damping, Real dt, const LevelInterface& face, Levels& lev
                 const Real force = face.column_weight[entry] * slave.force[a];
                 motion.velocity[a] += impulse * force;
                 motion.change[a] += dt * impulse * force;
+                if (damping > 0) master.force[a] += force;
             }
         }
     });

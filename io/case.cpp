@@ -55,9 +55,4 @@ solver::Problem read_case(const std::filesystem::path& file, const std::vector<s
 {
     return read_case_with_warnings(file, overrides).problem;
 }
-
-std::string resolved_toml(const std::filesystem::path& file, const std::vector<std::string>& overrides)
-{
-    return read_case_with_warnings(file, overrides).resolved;
-}
 } // namespace io

@@ -24,7 +24,4 @@ Case read_case_with_warnings(const std::filesystem::path& file, const std::vecto
 
 /// The same, for those who need the Problem only.
 solver::Problem read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
-
-/// The case with every default written out: a case file that gives an equal Problem.
-std::string resolved_toml(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 } // namespace io

@@ -17,23 +17,12 @@ bool in_a_body(const Draft& draft, const Vec3& point)
                        [&](const solver::Body& body) { return body.shape.contains(point); });
 }
 
-geometry::Bounds body_bounds(const Draft& draft)
-{
-    geometry::Bounds all = draft.problem.bodies.front().shape.bounds();
-    for (const solver::Body& body : draft.problem.bodies) {
-        const geometry::Bounds own = body.shape.bounds();
-        all.lower = all.lower.cwiseMin(own.lower);
-        all.upper = all.upper.cwiseMax(own.upper);
-    }
-    return all;
-}
-
 /// Whether any sample of a lattice over the part of `bounds` that bodies can fill fulfils `wanted`; the lattice is as
 /// fine as `step`, but never more than about a million points.
 template <class Wanted>
 bool any_sample(const Draft& draft, const geometry::Bounds& bounds, Real step, const Wanted& wanted)
 {
-    const geometry::Bounds bodies = body_bounds(draft);
+    const geometry::Bounds bodies = draft.problem.bounds();
     const Vec3 lower = bounds.lower.cwiseMax(bodies.lower);
     const Vec3 size = bounds.upper.cwiseMin(bodies.upper) - lower;
     if ((size.array() <= 0).any()) return false;
@@ -184,6 +173,16 @@ void check_surface_loads(Draft& draft)
     }
 }
 
+/// Points on a face or a symmetry plane are fine, and so is the particle nearest to them.
+void require_material(Draft& draft, const Place& place, const std::string& what, const Vec3& point, Real reach)
+{
+    Real distance = std::numeric_limits<Real>::infinity();
+    for (const solver::Body& body : draft.problem.bodies) distance = std::min(distance, body.shape.distance(point));
+    if (distance > reach)
+        draft.diagnostics.error(place, fmt::format("{} lies {:.3g} mm outside every body", what, distance),
+                                "choose a point of the material");
+}
+
 void check_gauge(Draft& draft)
 {
     const solver::Problem& problem = draft.problem;
@@ -195,15 +194,39 @@ void check_gauge(Draft& draft)
         return;
     }
     if (!draft.gauge.sound) return;
-    for (const auto& [name, point] : {std::pair("upper", problem.gauge->upper), {"lower", problem.gauge->lower}}) {
-        Real distance = std::numeric_limits<Real>::infinity();
-        for (const solver::Body& body : problem.bodies) distance = std::min(distance, body.shape.distance(point));
-        // Points on a face or a symmetry plane are fine, and so is the particle nearest to them.
-        if (distance > 0.5 * problem.grid.cell)
-            draft.diagnostics.error(draft.root.find("gauge")->find("cod")->find(name)->place,
-                                    fmt::format("gauge point '{}' lies {:.3g} mm outside every body", name, distance),
-                                    "choose a point of the material");
+    for (const auto& [name, point] : {std::pair("upper", problem.gauge->upper), {"lower", problem.gauge->lower}})
+        require_material(draft, draft.root.find("gauge")->find("cod")->find(name)->place,
+                         fmt::format("gauge point '{}'", name), point, 0.5 * problem.grid.cell);
+}
+
+void check_measures(Draft& draft)
+{
+    const solver::Problem& problem = draft.problem;
+    const Node* list = draft.root.find("measure");
+    if (!list || draft.diagnostics.error_count() > 0 || list->items.size() != problem.quantities.size()) return;
+    for (std::size_t i = 0; i < problem.quantities.size(); ++i) {
+        const solver::Quantity& quantity = problem.quantities[i];
+        const auto require = [&](const Vec3& point, const std::optional<Real>& radius) {
+            require_material(draft, list->items[i].place, fmt::format("a point of measure '{}'", quantity.name), point,
+                             std::max(radius.value_or(0), problem.grid.cell / 2));
+        };
+        if (const auto* probe = std::get_if<solver::Probe>(&quantity.kind); probe && probe->point)
+            require(*probe->point, probe->radius);
+        if (const auto* difference = std::get_if<solver::Difference>(&quantity.kind)) {
+            require(difference->first, difference->radius);
+            require(difference->second, difference->radius);
+        }
     }
+}
+
+void check_forces(Draft& draft)
+{
+    const solver::Problem& problem = draft.problem;
+    if (problem.loads.empty() || !problem.force_upper.empty() || !problem.force_lower.empty()) return;
+    if (problem.gauge || !problem.ligaments.empty())
+        draft.diagnostics.warning(draft.end.place,
+                                  "no [forces]: the forces of history.csv, events.csv and the measures are 0",
+                                  "name the loads: [forces] upper = \"...\", lower = \"...\"");
 }
 
 void check_subcycling(Draft& draft)
@@ -232,5 +255,7 @@ void check_case(Draft& draft)
     check_surface_loads(draft);
     check_subcycling(draft);
     check_gauge(draft);
+    check_measures(draft);
+    check_forces(draft);
 }
 } // namespace io

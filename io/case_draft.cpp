@@ -22,27 +22,35 @@ Node& reach(Node& root, const std::vector<std::string>& path, Node fresh)
     }
     return *place;
 }
+
+template <class Part>
+const Part* find_named(Draft& draft, const std::vector<Part>& parts, std::string_view kind, const std::string& name,
+                       const Place& place)
+{
+    std::vector<std::string> names;
+    for (const Part& part : parts) {
+        if (part.name == name) return &part;
+        names.push_back(part.name);
+    }
+    unknown_name(draft, place, kind, name, names);
+    return nullptr;
+}
 } // namespace
 
 const solver::Feature* find_feature(Draft& draft, const std::string& name, const Place& place)
 {
-    std::vector<std::string> names;
-    for (const solver::Feature& feature : draft.problem.features) {
-        if (feature.name == name) return &feature;
-        names.push_back(feature.name);
-    }
-    unknown_name(draft, place, "feature", name, names);
-    return nullptr;
+    return find_named(draft, draft.problem.features, "feature", name, place);
+}
+
+const material::Material* find_material(Draft& draft, const std::string& name, const Place& place)
+{
+    return find_named(draft, draft.problem.materials, "material", name, place);
 }
 
 int material_index(Draft& draft, const std::string& name, const Place& place)
 {
-    std::vector<std::string> names;
-    for (const material::Material& material : draft.problem.materials) names.push_back(material.name);
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found != names.end()) return static_cast<int>(found - names.begin());
-    unknown_name(draft, place, "material", name, names);
-    return 0;
+    const material::Material* found = find_material(draft, name, place);
+    return found ? static_cast<int>(found - draft.problem.materials.data()) : 0;
 }
 void unknown_name(Draft& draft, const Place& place, std::string_view kind, std::string_view name,
                   const std::vector<std::string>& candidates)

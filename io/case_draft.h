@@ -73,7 +73,9 @@ void check_case(Draft& draft);
 /// The feature of that name, or an error at `place` and null.
 const solver::Feature* find_feature(Draft& draft, const std::string& name, const Place& place);
 
-/// Index of the material of that name, or an error at `place` and 0.
+/// The material of that name, or an error at `place` and null.
+const material::Material* find_material(Draft& draft, const std::string& name, const Place& place);
+/// Its index, or an error at `place` and 0.
 int material_index(Draft& draft, const std::string& name, const Place& place);
 /// Index of the motion named at a key of a section; empty if the key is absent or (with an error) names none.
 std::optional<int> find_motion(Draft& draft, SectionReader& section, std::string_view key);

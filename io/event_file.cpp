@@ -1,13 +1,13 @@
 #include "io/event_file.h"
 
 #include "io/atomic_file.h"
+#include "io/csv.h"
 #include "solver/ligament_events.h"
 #include "solver/measures.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace io
 {
@@ -28,26 +28,17 @@ std::string events_text(const solver::Problem& problem, const solver::State& sta
     std::string text = "step,time_ms,ligament,event,front,force_N,cod_mm,initiation\n";
     for (const solver::LigamentEvent& event : state.events) {
         const solver::Ligament& ligament = problem.ligaments[static_cast<std::size_t>(event.ligament)];
-        text += fmt::format("{},{:.10g},{}-{},{},{:.4g},{:.10g},{:.10g},{}\n", event.step, event.time, ligament.from,
-                            ligament.to, solver::event_name(event.kind), event.front, event.force, event.cod,
-                            initiation_name(initiations, event));
+        text += csv_line({std::to_string(event.step), fmt::format("{:.10g}", event.time),
+                          fmt::format("{}-{}", ligament.from, ligament.to), std::string(solver::event_name(event.kind)),
+                          fmt::format("{:.4g}", event.front), fmt::format("{:.10g}", event.force),
+                          fmt::format("{:.10g}", event.cod), initiation_name(initiations, event)}) +
+                "\n";
     }
     return text;
 }
 
 std::vector<std::vector<std::string>> read_events(const std::filesystem::path& path)
 {
-    std::vector<std::vector<std::string>> rows;
-    std::istringstream text(read_file(path));
-    for (std::string line; std::getline(text, line);) {
-        std::vector<std::string>& row = rows.emplace_back();
-        std::size_t begin = 0;
-        for (std::size_t end = line.find(','); end != line.npos; end = line.find(',', begin)) {
-            row.push_back(line.substr(begin, end - begin));
-            begin = end + 1;
-        }
-        row.push_back(line.substr(begin));
-    }
-    return rows;
+    return csv_cells(read_file(path));
 }
 } // namespace io

@@ -561,7 +561,8 @@ constexpr Key keys[] = {
         choice,
         required,
         "",
-        "energy of the whole model, with what was stored and let go; that of softening alone; number, rest volume of "
+        "energy of the whole model, with what was stored and let go; that of softening alone (not of a brittle drop); "
+        "number, rest volume of "
         "the separated; area sum(damage V0 / L_e); angle in degrees of "
         "the line through the separated, in the plane normal to `axis`, from the next axis; length along that line; "
         "tip: largest rest coordinate along `axis`; time of the first onset",
@@ -575,7 +576,8 @@ constexpr Key keys[] = {
 
     Key{"end", "time", real, defaulted, "inf", "end time", dim::time, positive_or_inf},
     Key{"end", "cod", real, defaulted, "inf", "end at this opening of gauge.cod", dim::length, positive_or_inf},
-    Key{"end", "separated", boolean, defaulted, "true", "end when every load carries less than 1 % of its peak"},
+    Key{"end", "separated", boolean, defaulted, "true",
+        "end when the mean of the two forces is below 1 % of its peak for ten lines and a particle has separated"},
 
     Key{"output", "history", table, optional, "", "history.csv"},
     Key{"output", "probes", table, optional, "", "probes.csv: values of the measures"},

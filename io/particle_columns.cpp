@@ -2,6 +2,7 @@
 
 #include "core/contract.h"
 #include "core/tensor.h"
+#include "particles/tensors.h"
 
 #include <array>
 #include <cmath>
@@ -90,12 +91,8 @@ std::vector<Real> particle_volumes(const Particles& particles)
 {
     std::vector<Real> volume = copied(particles.rest_volume);
     const bool total = !particles.deformation_gradient[0].empty();
-    for (std::size_t p = 0; p < volume.size(); ++p) {
-        core::Mat<Real> F = core::identity<Real>();
-        if (total)
-            for (std::size_t c = 0; c < 9; ++c) F.m[c] = particles.deformation_gradient[c][p];
-        volume[p] *= total ? core::determinant(F) : particles.volume_ratio[p];
-    }
+    for (std::size_t p = 0; p < volume.size(); ++p)
+        volume[p] *= total ? core::determinant(particles::deformation_of(particles, p)) : particles.volume_ratio[p];
     return volume;
 }
 

@@ -66,17 +66,6 @@ solver::PointSegment read_segment(Draft& draft, const Node& item)
     return segment;
 }
 
-const material::Material* find_material(Draft& draft, const std::string& name, const Place& place)
-{
-    std::vector<std::string> names;
-    for (const material::Material& material : draft.problem.materials) {
-        if (material.name == name) return &material;
-        names.push_back(material.name);
-    }
-    unknown_name(draft, place, "material", name, names);
-    return nullptr;
-}
-
 solver::PointPath read_path(Draft& draft, const Node& point)
 {
     SectionReader section(draft.diagnostics, &point, "point", "point", point.place);

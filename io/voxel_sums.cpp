@@ -40,16 +40,19 @@ private:
     std::size_t last_ = 0;
 };
 
+/// A particle of the coarsest of eight levels, alone in its cell, is 128 voxels wide and touches one more.
+constexpr std::size_t most_touched = 129;
+
 /// Voxels an interval touches along one axis and the share of it in each.
 struct Overlap
 {
     int first = 0;
     int count = 0;
-    std::array<Real, 64> share{};
+    std::array<Real, most_touched> share; // the first `count`
 };
 
 /// Overlap of [centre - side/2, centre + side/2], in units of the voxel, with the voxels of one axis.
-/// @pre side <= 62: the coarsest of at most 6 levels
+/// @pre side <= most_touched - 1
 Overlap overlap(Real centre, Real side)
 {
     const Real lower = centre - side / 2, upper = centre + side / 2;

@@ -92,12 +92,19 @@ constexpr Traction<T> unsupported(const SeparationLaw& law, const Faces<T>& face
 /// Openings up to this share of L_e are closed: the step that closes a crack leaves rounding.
 inline constexpr double closed_opening = 1e-9;
 
+template <class T>
+constexpr auto is_closed(const Faces<T>& faces)
+{
+    return faces.opening <= T(closed_opening) * faces.effective_length;
+}
+
 /// A second crack (docs/decisions/022). Where the first one stands open the stress that is left lies in its plane, with
 /// the principal values a >= b = I1/2 +- sqrt(sigma:sigma/2 - I1^2/4) beside zero. When they pull more than they push
-/// and reach a strength, a > s_max or (a - min(b, 0))/2 > tau(L), the metal breaks there too: what it has stored is
-/// dissipated, and from then on it carries stress only while the first crack is closed.
-template <class T>
-constexpr void break_across(const SeparationLaw& law, Faces<T>& faces)
+/// and reach a strength, a > s_max or (a - min(b, 0))/2 > tau(L), the metal breaks there too, and from then on it
+/// carries stress only while the first crack is closed. What is stored when it breaks, or opens again, is dissipated.
+/// @param was_closed  the first crack was at the beginning of the step
+template <class T, class Mask>
+constexpr void break_across(const SeparationLaw& law, Mask was_closed, Faces<T>& faces)
 {
     const T zero(0.0), half(0.5), squared = core::contract(faces.stress, faces.stress);
     const T middle = half * core::trace(faces.stress);
@@ -105,13 +112,13 @@ constexpr void break_across(const SeparationLaw& law, Faces<T>& faces)
     const T high = middle + radius, other = middle - radius, low = core::min(other, zero);
     const T shear_limit =
         shear_strength(lode_parameter(high, core::max(other, zero), low), law.second_shear, law.axial_rise);
-    const auto open = faces.opening > T(closed_opening) * faces.effective_length;
+    const auto open = !is_closed(faces);
     const auto fails = (high > T(law.second_tension)) | ((middle > zero) & (half * (high - low) > shear_limit));
     const auto breaks = open & (faces.crossed <= zero) & fails;
     const T stored = stored_energy(T(law.lame.lame), T(law.shear_modulus), faces.stress);
-    faces.decohesion_work += core::select(breaks, stored, zero);
     faces.crossed = core::select(breaks, T(1.0), faces.crossed);
     const auto lets_go = open & (faces.crossed > zero);
+    faces.decohesion_work += core::select(lets_go & (breaks | was_closed), stored, zero);
     for (T& component : faces.stress.s) component = core::select(lets_go, zero, component);
 }
 
@@ -131,6 +138,7 @@ constexpr void slide(const SeparationLaw& law, Traction<T> before, Faces<T>& fac
         open(law, before, trial, released, faces);
         before = {trial.normal - released.normal, trial.tangential - released.tangential};
     };
+    const auto was_closed = is_closed(faces);
     relax(faces.effective_length > T(0.0)); // everywhere
     if (law.plastic) {
         const PlasticConstants<T> plastic{T(law.plastic->yield), T(law.plastic->hardening), T(law.plastic->shear_three),
@@ -141,7 +149,7 @@ constexpr void slide(const SeparationLaw& law, Traction<T> before, Faces<T>& fac
         faces.plastic_work = returned.work;
         relax(returned.work > T(0.0));
     }
-    if (law.second_crack) break_across(law, faces);
+    if (law.second_crack) break_across(law, was_closed, faces);
 }
 
 /// Turn the faces and the stress with the crack plane and add the elastic trial; the traction before is returned.

@@ -93,10 +93,11 @@ std::optional<core::Crack> onset(const Decohesion& law, const Elastic& elastic, 
 /// @pre some traction that loads the plane
 double critical_length(const Elastic& elastic, double q, const core::Crack& crack, const PlaneTraction& traction);
 
-/// Fracture energy G_f = U_0 q / (q + 1) [N/mm] that the crack will dissipate, in any mode and on any path (D.4).
+/// Fracture energy G_f = U_0 q / (q + 1) [N/mm] that the crack will dissipate, in any mode and on any path (D.4) that
+/// does not snap back: a brittle drop, and a crack that separates in one step, dissipate otherwise.
 double fracture_energy(double q, const core::Crack& crack);
 
-/// What softening has dissipated so far, U_0 (lambda - lambda^(q+1) / (q+1)) [N/mm], on any path: the integral of
-/// tau.du = U_0 (1 - lambda^q) dlambda. G_f once the crack is through.
+/// What softening has dissipated so far, U_0 (lambda - lambda^(q+1) / (q+1)) [N/mm], on any such path: the
+/// integral of tau.du = U_0 (1 - lambda^q) dlambda. G_f once the crack is through.
 double softening_energy(double q, const core::Crack& crack);
 } // namespace material

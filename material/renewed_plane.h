@@ -21,6 +21,6 @@ inline constexpr double renewal_loading = 1.05;
 
 /// Give `faces` the plane the stress asks for, with its slip turned into it and L_e of its own; nothing where the plane
 /// there is does.
-/// @param crack  0 < damage < 1: mode and strengths
+/// @param crack  damage < 1: mode and strengths
 void renew_plane(const core::Crack& crack, const StrainStep& step, Faces<double>& faces);
 } // namespace material

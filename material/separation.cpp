@@ -157,6 +157,7 @@ DecohesionStep separate(const SeparationLaw& law, const core::Crack& crack, cons
         if (law.renewed_plane && after.damage < 1) renew_plane(after, step, faces);
         if (after.damage >= 1) after.separation_time = step.time;
     }
+    after.snap_back_ratio *= faces.effective_length / crack.effective_length; // L_crit stays that of the onset
     after.effective_length = faces.effective_length;
     after.normal = faces.normal.v;
     after.slip = faces.slip.v;

@@ -9,7 +9,7 @@
 ///
 /// without a root the particle separates in this step (snap-back). Dissipation is the trapezoid of traction and opening
 /// and sums to U_0 q/(q+1) per crack area on every stable path. Compression passes and loads nothing. No plastic flow
-/// while 0 < lambda < 1. Neglected: closure of a partly opened crack, a second crack, wear.
+/// from the onset until lambda = 1. Neglected: closure of a partly opened crack, wear.
 #pragma once
 
 #include "core/crack.h"
@@ -58,8 +58,9 @@ struct DecohesionStep
     core::Sym<double> stress;     // MPa, at the end
     core::Crack crack;            // normal and slip rotated, damage and opening advanced
     double eq_plastic_strain = 0; // 1
-    double decohesion_work = 0;   // mJ/mm^3, dissipated by opening, slip and friction, >= 0
-    double plastic_work = 0;      // mJ/mm^3
+    double decohesion_work =
+        0; // mJ/mm^3, dissipated by opening, slip, friction and second cracks, and what turning the plane frees; >= 0
+    double plastic_work = 0; // mJ/mm^3
 };
 
 /// Advance a crack of any damage by one step. The plane of an opening crack is turned first while lambda <

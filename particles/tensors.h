@@ -1,4 +1,4 @@
-/// One particle's tensors gathered from their columns, for code that looks at particles one by one.
+/// One particle's vectors and tensors gathered from their columns, for code that looks at particles one by one.
 #pragma once
 
 #include "core/tensor.h"
@@ -6,6 +6,12 @@
 
 namespace particles
 {
+/// Position at time 0 [mm].
+inline Vec3 rest_of(const Particles& particles, std::size_t p)
+{
+    return {particles.rest_position[0][p], particles.rest_position[1][p], particles.rest_position[2][p]};
+}
+
 /// Cauchy stress [MPa].
 inline core::Sym<Real> stress_of(const Particles& particles, std::size_t p)
 {

@@ -4,6 +4,7 @@
 #include "grid/halo.h"
 #include "grid/interface.h"
 #include "grid/walls.h"
+#include "particles/tensors.h"
 
 #include <Eigen/LU>
 
@@ -18,11 +19,6 @@ const Motion* initial_of(const Problem& problem, std::size_t body)
 {
     const std::optional<int> index = problem.bodies[body].initial;
     return index ? &problem.motions[static_cast<std::size_t>(*index)] : nullptr;
-}
-
-Vec3 rest_of(const particles::Particles& particles, std::size_t p)
-{
-    return {particles.rest_position[0][p], particles.rest_position[1][p], particles.rest_position[2][p]};
 }
 
 /// `visit(p, motion)` for the particles of bodies with an initial motion.

@@ -174,9 +174,7 @@ void add_damped_work(const Problem& problem, const Derived& derived, State& stat
 
 Real surface_force(const Problem& problem, const Derived& derived, std::size_t load, int axis, Real time)
 {
-    Real factor = 1;
-    for (const SymmetryPlane& plane : problem.symmetry)
-        if (plane.axis != axis) factor *= 2;
-    return factor * ramp_value(problem.surface_loads[load].ramp, time) * derived.surface.total[load][axis];
+    return problem.symmetry_factor(axis) * ramp_value(problem.surface_loads[load].ramp, time) *
+           derived.surface.total[load][axis];
 }
 } // namespace solver

@@ -56,7 +56,7 @@ void regrid(const Problem& problem, const Prepared& prepared, State& state, Deri
 void follow_particles(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
 {
     if (problem.numerics.formulation == Formulation::total) return;
-    if (transfer::worth_reordering(state.strays, state.particles)) {
+    if (transfer::worth_reordering(prepared.options, state.strays, state.particles)) {
         regrid(problem, prepared, state, derived);
     } else if (load_nodes_outdated(problem, state.loads, derived.load_nodes)) {
         find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);

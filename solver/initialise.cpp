@@ -21,18 +21,6 @@ namespace solver
 {
 namespace
 {
-geometry::Bounds bounds_of_all(const std::vector<Body>& bodies)
-{
-    const Real far = std::numeric_limits<Real>::infinity();
-    geometry::Bounds all{Vec3::Constant(far), Vec3::Constant(-far)};
-    for (const Body& body : bodies) {
-        const geometry::Bounds b = body.shape.bounds();
-        all.lower = all.lower.cwiseMin(b.lower);
-        all.upper = all.upper.cwiseMax(b.upper);
-    }
-    return all;
-}
-
 /// Columns that only one formulation, transfer or law needs.
 void add_scheme_columns(const Problem& problem, particles::Particles& particles)
 {
@@ -52,7 +40,7 @@ void add_scheme_columns(const Problem& problem, particles::Particles& particles)
     }
 }
 
-/// Ids of the particles within one particle spacing of a point, or of the nearest one; sorted.
+/// Ids of the particles within `radius` of a point, or of the nearest one; sorted.
 std::vector<std::uint32_t> particles_near(const particles::Particles& particles, const Vec3& point, Real radius)
 {
     std::vector<std::uint32_t> ids;
@@ -76,7 +64,10 @@ std::vector<std::uint32_t> particles_near(const particles::Particles& particles,
 grid::Refinement populate(const Problem& problem, const Prepared& prepared, State& state)
 {
     const refine::Lattice lattice{problem.grid.cell, problem.grid.origin, problem.grid.levels};
-    grid::Refinement refinement = refine::refinement_of(problem.zones, lattice, bounds_of_all(problem.bodies));
+    if (problem.bodies.size() > 256 || problem.materials.size() > 256)
+        throw core::InputError(fmt::format("{} bodies of {} materials are more than a particle can name (256 each)",
+                                           problem.bodies.size(), problem.materials.size()));
+    grid::Refinement refinement = refine::refinement_of(problem.zones, lattice, problem.bounds());
     for (const Body& body : problem.bodies) {
         const std::size_t before = state.particles.size();
         const material::Material& material = problem.materials[static_cast<std::size_t>(body.material)];

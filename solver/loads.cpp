@@ -70,16 +70,20 @@ Real mass_at(const grid::Levels& levels, const NodeAddress& at)
     return levels.sum.empty() ? levels.forces(leaf)[at.node].mass() : levels.sums(leaf)[at.node].mass;
 }
 
-/// Velocity a held node would have now without its load. Nodal scheme: as the forces have left it. Else what the
-/// transfer carries on, plus dt (f / m + g): FLIP carries the prescribed velocity `before`, PIC and APIC the mapped
-/// one.
+/// Velocity a held node would have now without its load and without damping. Nodal scheme: as the forces have left it,
+/// `before` its prescribed one. Else what the transfer carries on, plus dt (f / m + g): FLIP carries the prescribed
+/// velocity `before`, PIC and APIC the mapped one.
 Vec3 free_velocity(const Problem& problem, const Prepared& prepared, const grid::Levels& levels, const NodeAddress& at,
                    const Vec3& before, Real dt)
 {
     const auto leaf = static_cast<std::size_t>(at.leaf);
     if (prepared.options.transfer == Transfer::nodal) {
         const grid::NodeMotion& motion = levels.motions(leaf)[at.node];
-        return {motion.velocity[0], motion.velocity[1], motion.velocity[2]};
+        const Vec3 now(motion.velocity[0], motion.velocity[1], motion.velocity[2]);
+        const Real half = problem.numerics.damping * dt / 2;
+        if (half == 0) return now;
+        return (1 + half) * now - (1 - half) * before +
+               before; // undoes v+ = ((1 - half) v + dt (f / m + g)) / (1 + half)
     }
     const Real mapped = prepared.options.transfer == Transfer::apic ? Real(1) : prepared.options.pic_fraction;
     const grid::NodeSum& sum = levels.sums(leaf)[at.node];
@@ -88,12 +92,14 @@ Vec3 free_velocity(const Problem& problem, const Prepared& prepared, const grid:
     return (1 - mapped) * before + (mapped * momentum + dt * force) / sum.mass + dt * problem.gravity;
 }
 
+/// Spin that makes the impulses m (after + spin x r - v) of the held nodes have no moment about the pin's axis.
 Real new_spin(const Problem& problem, const Prepared& prepared, const Load& load, const LoadState& state,
               const LoadNodes& nodes, Real time, Real dt, const grid::Levels& levels)
 {
     Real angular_momentum = 0;
     Real inertia = 0;
     const Vec3 before = prescribed(load, time);
+    const Vec3 after = prescribed(load, time + dt);
     const Turn turn(problem, load, state);
     for (std::size_t n = 0; n < nodes.node.size(); ++n) {
         const Real mass = mass_at(levels, nodes.node[n]);
@@ -101,7 +107,7 @@ Real new_spin(const Problem& problem, const Prepared& prepared, const Load& load
         const Vec3 r = turn.arm(nodes.position[n]);
         const Vec3 v =
             free_velocity(problem, prepared, levels, nodes.node[n], before + spin_velocity(load, state.spin, r), dt);
-        angular_momentum += mass * r.cross(v - before)[load.axis];
+        angular_momentum += mass * r.cross(v - after)[load.axis];
         inertia += mass * r.squaredNorm();
     }
     return inertia > 0 ? angular_momentum / inertia : Real(0);

@@ -35,7 +35,7 @@ Real mean_force(const Problem& problem, const Derived& derived, const State& sta
 {
     for (std::size_t i = 0; i < problem.loads.size(); ++i)
         if (problem.loads[i].name == name && state.loads[i].impulse_time > 0)
-            return sign * problem.symmetry_factor() * state.loads[i].impulse[problem.force_axis] /
+            return sign * problem.symmetry_factor(problem.force_axis) * state.loads[i].impulse[problem.force_axis] /
                    state.loads[i].impulse_time;
     for (std::size_t i = 0; i < problem.surface_loads.size(); ++i)
         if (problem.surface_loads[i].name == name)

@@ -50,7 +50,7 @@ Prepared prepare(const Problem& problem)
         throw core::InputError(
             fmt::format("grid.particles_per_cell = {} is not a cube number", problem.grid.particles_per_cell));
     prepared.options.per_axis = prepared.per_axis;
-    if (transfer::uses_boxes(prepared.options)) prepared.options.walls = prepared.walls;
+    prepared.options.walls = prepared.walls;
     return prepared;
 }
 } // namespace solver

@@ -174,7 +174,7 @@ struct End
 {
     Real time = std::numeric_limits<Real>::infinity(); // ms
     Real cod = std::numeric_limits<Real>::infinity();  // mm
-    bool separated = true; // stop when every load carries less than 1 % of its peak after the peak
+    bool separated = true; // stop when the force is below 1 % of its peak (observe.h, finished)
 };
 
 /// Published numbers to print beside the run, such as Table 1 of the paper.
@@ -210,7 +210,10 @@ struct Problem
     Output output;
     std::vector<Reference> references;
 
-    /// Full-specimen force over modelled force: 2 for every symmetry plane parallel to the force.
-    Real symmetry_factor() const;
+    /// Force on the full specimen over that on the modelled part, along `axis`: 2 for every plane parallel to it.
+    Real symmetry_factor(int axis) const;
+    /// Box about all bodies at rest [mm].
+    /// @pre there is one
+    geometry::Bounds bounds() const;
 };
 } // namespace solver

@@ -1,6 +1,7 @@
 #include "solver/quantity_values.h"
 
 #include "material/decohesion.h"
+#include "particles/tensors.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -148,11 +148,6 @@ Real over_region(const Probe& probe, const ParticleView& view)
 }
 } // namespace
 
-Vec3 rest_of(const particles::Particles& particles, std::size_t p)
-{
-    return {particles.rest_position[0][p], particles.rest_position[1][p], particles.rest_position[2][p]};
-}
-
 Real volume_ratio(const particles::Particles& particles, std::size_t p)
 {
     return particles.volume_ratio.empty() ? core::determinant(particles::deformation_of(particles, p))

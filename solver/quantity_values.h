@@ -17,7 +17,6 @@ struct ParticleView
     int per_axis;
 };
 
-Vec3 rest_of(const particles::Particles& particles, std::size_t p);
 /// Present over rest volume.
 Real volume_ratio(const particles::Particles& particles, std::size_t p);
 Real field_value(const FieldComponent& field, const particles::Particles& particles, std::size_t p);

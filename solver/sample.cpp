@@ -19,14 +19,6 @@ struct Overloaded : F...
 template <class... F>
 Overloaded(F...) -> Overloaded<F...>;
 
-Real factor_along(const Problem& problem, int axis)
-{
-    Real factor = 1;
-    for (const SymmetryPlane& plane : problem.symmetry)
-        if (plane.axis != axis) factor *= 2;
-    return factor;
-}
-
 Real value_of(const LoadQuantity& quantity, const Problem& problem, const Derived& derived, const State& state)
 {
     const int axis = quantity.component;
@@ -37,7 +29,7 @@ Real value_of(const LoadQuantity& quantity, const Problem& problem, const Derive
     const LoadState& load = state.loads[quantity.load];
     switch (quantity.what) {
     case LoadQuantity::What::force:
-        return load.sample_time > 0 ? factor_along(problem, axis) * load.sample_impulse[axis] / load.sample_time
+        return load.sample_time > 0 ? problem.symmetry_factor(axis) * load.sample_impulse[axis] / load.sample_time
                                     : Real(0);
     case LoadQuantity::What::displacement:
         return load.displacement[axis];

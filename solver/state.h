@@ -78,7 +78,8 @@ struct LigamentEvent
     EventKind kind = EventKind::onset;
 };
 
-/// One line of history.csv; forces are means over the interval since the line before, full specimen.
+/// One line of history.csv; forces are means over the interval since the line before (of surface loads: of the moment),
+/// full specimen.
 struct HistoryLine
 {
     std::int64_t step = 0;

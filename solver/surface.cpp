@@ -1,6 +1,7 @@
 #include "solver/surface.h"
 
 #include "core/error.h"
+#include "particles/tensors.h"
 
 #include <fmt/format.h>
 
@@ -66,11 +67,6 @@ struct Shares
         return sum;
     }
 };
-
-Vec3 rest_of(const particles::Particles& particles, std::size_t p)
-{
-    return {particles.rest_position[0][p], particles.rest_position[1][p], particles.rest_position[2][p]};
-}
 
 Shares shares_of(const Problem& problem, const Prepared& prepared, const particles::Particles& particles)
 {

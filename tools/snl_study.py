@@ -23,6 +23,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
 
+from csv_rows import write_rows
 from marked_page import replaced
 from picture_of_run import read_curve, read_frame
 
@@ -409,10 +410,7 @@ def draw_all(images, results, reference):
 def write_page(results, reference):
     by_name = kept_rows() | {name: row_of(name, results[name]) for name in results if VARIANTS[name].group in EVENT_GROUPS}
     rows = [by_name[name] for name in VARIANTS if name in by_name]
-    with open(ROOT / "docs/snl.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, dict.fromkeys(key for row in rows for key in row), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_rows(ROOT / "docs/snl.csv", rows)
     draw_all(ROOT / "docs/img", results, reference)
     page = ROOT / "docs/snl.md"
     text = replaced(page.read_text(), "table 1", table_one(by_name, reference))

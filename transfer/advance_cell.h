@@ -261,6 +261,7 @@ template <bool Plain = false, class Move>
 advance_group(const PassOptions& options, const LawTable& laws, const CellFrame& frame, std::size_t begin,
               std::size_t end, particles::Particles& particles, LeafOutcome& outcome, const Move& move)
 {
+    if constexpr (Plain) end = begin + plain_count(begin, end);
     for (std::size_t first = begin; first < end; first += group_size<Plain>) {
         const std::size_t last = Plain ? end : std::min(end, first + group_size<Plain>);
         detail::Kinematics k[group_size<Plain> / Lanes::lanes];

@@ -16,11 +16,11 @@ template <Formulation F, Transfer T, StressUpdate S>
                                      particles::Particles& particles, LeafOutcome& outcome, grid::NodeSum* sums)
 {
     constexpr int width = Lanes::lanes;
-    const std::size_t chunks = (end - begin) / Lanes::lanes;
+    const std::size_t count = plain_count(begin, end), chunks = count / Lanes::lanes;
     CellField field;
     read_cell(motion + frame.node, field);
-    detail::Kinematics k[plain_size / Lanes::lanes];
-    Given given[plain_size / Lanes::lanes];
+    detail::Kinematics k[largest_plain / Lanes::lanes];
+    Given given[largest_plain / Lanes::lanes];
     const std::size_t leavers = outcome.leaver.size();
     Real volume = 0;
     Real dilated = 0;
@@ -42,9 +42,9 @@ template <Formulation F, Transfer T, StressUpdate S>
     if (near_onset) detail::test_onset(options, laws, frame, k, begin, end, particles, outcome.onset);
     if (outcome.leaver.size() != leavers) // those are added to the cell they have come to
         return scatter_cell<F, T>(frame, Visitors::residents, laws, particles, begin, end, sums);
-    Staged<plain_size> staged;
+    Staged<largest_plain> staged;
     for (std::size_t c = 0; c < chunks; ++c)
         stage<F>(frame, given[c], k[c].averaged, pressure.mean(), static_cast<int>(c) * width, staged);
-    add_staged<F, T, true>(frame, staged, static_cast<int>(end - begin), particles, begin, sums);
+    add_staged<F, T, true>(frame, staged, static_cast<int>(count), particles, begin, sums);
 }
 } // namespace transfer

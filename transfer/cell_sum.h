@@ -118,7 +118,7 @@ template <int N, class Rate>
 }
 
 /// Add the sums of N nodes from `first` on.
-/// @tparam Momentum    the force is zero: only the first half of each node's line is touched
+/// @tparam Momentum    no force: with short vectors only the first half of each node's line is touched
 /// @param per_spacing  1 / spacing
 /// @param node         the cell's lower-corner node in a sum tile
 template <bool Momentum = false, int N>
@@ -132,9 +132,10 @@ template <bool Momentum = false, int N>
     V line[8];
     line[0] = sum.mass;
     for (int a = 0; a < 3; ++a) line[1 + a] = sum.momentum[a];
-    for (int a = 0; a < 3; ++a)
-        line[4 + a] = sum.force[a][0] * sign_x + sum.force[a][1] * sign_y + sum.force[a][2] * sign_z;
-    line[7] = V(Real(0));
+    for (int a = 0; a < 4; ++a) line[4 + a] = V(Real(0));
+    if constexpr (!Momentum)
+        for (int a = 0; a < 3; ++a)
+            line[4 + a] = sum.force[a][0] * sign_x + sum.force[a][1] * sign_y + sum.force[a][2] * sign_z;
     constexpr int end = Momentum ? std::max(N, 4) : 8;
     for (int place = 0; place < end; place += N) {
         V square[N];

@@ -157,22 +157,31 @@ enum class Visitors
 
 /// Particles of a plain cell at most: functions with `Plain` set know that every lane is a particle at home, that one
 /// law serves all and nobody has decohesion state.
-inline constexpr int plain_size = 8;
+inline constexpr int largest_plain = 8;
 
-/// Particles of a cell worked on together at most; in cells that are not plain, more do not meet.
+/// Particles of a plain cell, [begin, end); with long vectors the compiler knows how many.
+inline std::size_t plain_count(std::size_t begin, std::size_t end)
+{
+    return Lanes::lanes == largest_plain ? largest_plain : end - begin;
+}
+
+/// Particles of a cell worked on together at most; in cells that are not plain, more hardly ever meet, and if they do
+/// each group has means of its own.
 template <bool Plain>
-inline constexpr std::size_t group_size = Plain ? plain_size : 64;
+inline constexpr std::size_t group_size = Plain ? largest_plain : 64;
 
-/// Whole chunks of particles, all at home.
+/// Whole chunks of particles, all at home, and no more than a plain cell holds.
+/// @pre begin < end
 inline bool all_at_home(const particles::Particles& particles, std::size_t begin, std::size_t end)
 {
-    if (end - begin > plain_size || (end - begin) % Lanes::lanes != 0) return false;
+    if (end - begin > largest_plain || (end - begin) % Lanes::lanes != 0) return false;
     for (std::size_t p = begin; p < end; p += Lanes::lanes)
         if (any_set(particles.away.data() + p, Lanes::lanes)) return false;
     return true;
 }
 
 /// Most cells of most steps are plain; with short vectors cells filled by half are, too.
+/// @pre begin < end
 inline bool is_plain(const particles::Particles& particles, std::size_t begin, std::size_t end)
 {
     if (!all_at_home(particles, begin, end)) return false;

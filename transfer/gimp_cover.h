@@ -7,7 +7,8 @@
 namespace transfer
 {
 /// How far boxes may move before new cells are needed, in cells of their size. About as far as particles move until a
-/// share `reorder_share` of them has changed cells, so neither forces an ordering much more often than the other.
+/// share of them has changed cells that is worth an ordering (strays.cpp), so neither forces an ordering much more
+/// often than the other.
 inline constexpr Real box_margin = 0.05;
 
 /// Subdivide coarse cells that hold no particle and are reached by boxes of finer ones, and balance. Otherwise fine

@@ -40,7 +40,6 @@ struct alignas(64) BoxGift
 /// The particles of one leaf whose boxes had to be cut (gimp_box.h), in storage order.
 struct CutBoxes
 {
-    std::vector<std::uint32_t> particle;
     std::vector<std::uint32_t> part_start; // [box + 1]
     std::vector<BoxPart> part;
     std::vector<BoxGift> gift; // [box]

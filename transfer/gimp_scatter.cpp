@@ -38,7 +38,6 @@ template <Transfer T>
 [[gnu::noinline]] void keep_cut(const BoxCutter& cutter, const particles::Particles& particles, std::size_t p,
                                 const BoxGift& gift, CutBoxes& cut)
 {
-    cut.particle.push_back(static_cast<std::uint32_t>(p));
     cut.gift.push_back(gift);
     if (!cutter.cut(particles, p, cut.part)) cut.outside = true;
     cut.part_start.push_back(static_cast<std::uint32_t>(cut.part.size()));
@@ -63,9 +62,9 @@ template <Transfer T>
 void add_plain(const BoxTarget& target, const LawTable& laws, const particles::Particles& particles, std::size_t begin,
                std::size_t end)
 {
-    const std::size_t chunks = (end - begin) / Lanes::lanes;
+    const std::size_t chunks = plain_count(begin, end) / Lanes::lanes;
     constexpr int width = Lanes::lanes;
-    Given given[plain_size / Lanes::lanes];
+    Given given[largest_plain / Lanes::lanes];
     CellPressure pressure;
     const LaneMask averaged = law_lanes<true>(laws, particles, begin, width).averaged;
     for (std::size_t c = 0; c < chunks; ++c) {
@@ -80,21 +79,23 @@ template <Transfer T>
 void add_any(const BoxTarget& target, const LawTable& laws, const particles::Particles& particles, std::size_t begin,
              std::size_t end)
 {
-    const CellPressure pressure = pressure_of(Visitors::residents, laws, particles, begin, end);
-    for (std::size_t p = begin; p < end; p += Lanes::lanes) {
-        const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, end - p));
-        Given given = read_given<Formulation::updated>(particles, p, count);
-        if (laws.any_decohesion && !particles.cracks.empty())
-            detail::reduce_to_solid(particles, p, count, given.volume);
-        const LaneMask averaged = pressure_lanes(laws, particles, p, count) &
-                                  present<Formulation::updated>(Visitors::residents, particles, p, count);
-        add_chunk<T>(target, given, averaged, pressure.mean(), particles, p, count);
+    for (std::size_t first = begin; first < end; first += group_size<false>) {
+        const std::size_t last = std::min(end, first + group_size<false>);
+        const CellPressure pressure = pressure_of(Visitors::residents, laws, particles, first, last);
+        for (std::size_t p = first; p < last; p += Lanes::lanes) {
+            const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
+            Given given = read_given<Formulation::updated>(particles, p, count);
+            if (laws.any_decohesion && !particles.cracks.empty())
+                detail::reduce_to_solid(particles, p, count, given.volume);
+            const LaneMask averaged = pressure_lanes(laws, particles, p, count) &
+                                      present<Formulation::updated>(Visitors::residents, particles, p, count);
+            add_chunk<T>(target, given, averaged, pressure.mean(), particles, p, count);
+        }
     }
 }
 
 void clear(CutBoxes& cut)
 {
-    cut.particle.clear();
     cut.part_start.assign(1, 0);
     cut.part.clear();
     cut.gift.clear();
@@ -155,7 +156,7 @@ void sort_arrivals(Strays& strays)
     // The starts move up while the lists fill, to where the next list starts.
     for (std::size_t n = 0; n < boxes.cut.size(); ++n) {
         const CutBoxes& cut = boxes.cut[n];
-        for (std::size_t box = 0; box < cut.particle.size(); ++box)
+        for (std::size_t box = 0; box < cut.gift.size(); ++box)
             for (std::uint32_t part = cut.part_start[box]; part < cut.part_start[box + 1]; ++part)
                 boxes.arrival[boxes.start[static_cast<std::size_t>(cut.part[part].leaf)]++] = {
                     static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(box), part};

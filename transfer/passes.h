@@ -5,7 +5,7 @@
 ///
 /// Each leaf is one task and adds in storage order, so results do not depend on the number of threads. The sums a step
 /// starts from are always those of the particles' present state: `scatter` after (re)ordering, `advance_and_scatter`
-/// otherwise, both through the same function so that a restart finds the same bits.
+/// otherwise, in the same order and with the same arithmetic, so that a restart finds the same bits.
 #pragma once
 
 #include "grid/levels.h"
@@ -30,7 +30,7 @@ struct PassOptions
     Real time = 0;         // ms, at the end of the step
     Basis basis = Basis::trilinear;
     int per_axis = 2;                   // particles per cell and axis: the size of the boxes of gimp
-    std::vector<grid::WallPlane> walls; // gimp: boxes are reflected there
+    std::vector<grid::WallPlane> walls; // symmetry planes: balls and the boxes of gimp are reflected there
 };
 
 /// Do the passes use boxes? In the total formulation boxes lie on the lattice and never leave their cells: the mean
@@ -51,7 +51,7 @@ struct LeafWork
 ///
 /// m_i = sum w m,   p_i = sum w m (v [+ C (x_i - x)]),   f_i = - sum V sigma grad w   (total: - sum V0 P grad_X w)
 ///
-/// @param strays  reads the particles outside their home cell; gimp: writes the list of visitors and `outside`
+/// @param strays  reads the particles outside their home cell; gimp: writes the cut boxes, who gets them, and `outside`
 /// @param levels  reads leaves, cell_start; writes sum (halos not yet assembled, interfaces not yet restricted)
 void scatter(const PassOptions& options, const LawTable& laws, Strays& strays, const particles::Particles& particles,
              grid::Levels& levels);

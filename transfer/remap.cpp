@@ -55,6 +55,7 @@ void remap_cell(const PassOptions& options, const CellFrame& frame, Visitors vis
     CellField field;
     read_cell(motion + frame.node, field);
     Staged<group_size<AtHome>> staged;
+    if constexpr (AtHome) end = begin + plain_count(begin, end);
     for (std::size_t first = begin; first < end; first += group_size<AtHome>) {
         const std::size_t last = AtHome ? end : std::min(end, first + group_size<AtHome>);
         for (std::size_t p = first; p < last; p += Lanes::lanes) {

@@ -179,11 +179,11 @@ template <Formulation F, Transfer T>
                                     const particles::Particles& particles, std::size_t begin, std::size_t end,
                                     grid::NodeSum* tile)
 {
-    CellPressure pressure;
-    if constexpr (F == Formulation::updated) pressure = pressure_of(visitors, laws, particles, begin, end);
     Staged<group_size<false>> staged;
     for (std::size_t first = begin; first < end; first += group_size<false>) {
         const std::size_t last = std::min(end, first + group_size<false>);
+        CellPressure pressure;
+        if constexpr (F == Formulation::updated) pressure = pressure_of(visitors, laws, particles, first, last);
         for (std::size_t p = first; p < last; p += Lanes::lanes) {
             const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, last - p));
             const int at = static_cast<int>(p - first);

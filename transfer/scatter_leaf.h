@@ -1,4 +1,5 @@
-/// Scatter of whole leaves; separate functions, never inlined into a pass, so that every caller gets the same bits.
+/// Scatter of whole leaves; separate functions, never inlined into a pass, so that every caller gets the same bits
+/// (plain cells have a copy of the arithmetic, advance_plain.h).
 #pragma once
 
 #include "transfer/chunk.h"

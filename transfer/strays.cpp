@@ -42,9 +42,11 @@ std::int64_t opened(const Vec3& scaled, grid::CellKey key, int target, grid::Ref
 }
 } // namespace
 
-bool worth_reordering(const Strays& strays, const particles::Particles& particles)
+bool worth_reordering(const PassOptions& options, const Strays& strays, const particles::Particles& particles)
 {
-    return strays.outside || static_cast<Real>(strays.size()) > reorder_share * static_cast<Real>(particles.size());
+    // Boxes are served alike wherever they are, points one by one once they have left their cell.
+    const Real share = uses_boxes(options) ? 0.02 : 0.01;
+    return strays.outside || static_cast<Real>(strays.size()) > share * static_cast<Real>(particles.size());
 }
 
 void assign(const PassOptions& options, const std::vector<std::uint32_t>& away, const particles::Particles& particles,

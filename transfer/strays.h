@@ -30,10 +30,9 @@ struct Strays
     std::size_t size() const { return particle.size(); }
 };
 
-/// Share of strays above which reordering all particles is cheaper than serving them (kernels.md 4).
-inline constexpr Real reorder_share = 0.01;
-
-bool worth_reordering(const Strays& strays, const particles::Particles& particles);
+/// Are there so many strays that reordering all particles is cheaper than serving them, or are they where none can be
+/// served (docs/performance.md)?
+bool worth_reordering(const PassOptions& options, const Strays& strays, const particles::Particles& particles);
 
 /// Find leaf and cell of the particles in `away` (unsorted, no repeats). Points that enter an empty cell, as fine as
 /// their target asks for, make it active where that is easy (grid::activate): a body that moves does so at every other

@@ -86,8 +86,9 @@ TEST(Report, ReadsAResultDirectory)
     for (const solver::HistoryLine& line : state.history) history.append(line);
     io::write_particle_frame(folder.path() / "particles", state.particles, state.levels, state.clock,
                              {.fields = {"damage", "eq_plastic_strain"}, .version = "0.1.0"});
-    io::write_file(folder.path() / "resolved.toml",
-                   io::resolved_toml(std::filesystem::path(CLEAVE_SOURCE_DIR) / "cases" / "snl" / "preview.toml"));
+    io::write_file(
+        folder.path() / "resolved.toml",
+        io::read_case_with_warnings(std::filesystem::path(CLEAVE_SOURCE_DIR) / "cases/snl/preview.toml").resolved);
 
     CLI::App program;
     app::Command chosen;

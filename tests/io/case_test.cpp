@@ -1,6 +1,7 @@
 #include "io/case.h"
 
 #include "case_file.h"
+#include "io/atomic_file.h"
 #include "io/grid_file.h"
 #include "io/keys.h"
 #include "io/particle_fields.h"
@@ -188,7 +189,7 @@ void expect_equal(const solver::Problem& a, const solver::Problem& b)
     EXPECT_EQ(a.output.checkpoint_at_end, b.output.checkpoint_at_end);
 }
 
-/// Every key away from its default, every kind of shape.
+/// Keys of every section away from their defaults, every kind of shape.
 constexpr std::string_view rich_case = R"(units = "mm-g-ms"
 title = "a \"rich\" case"
 gravity = [0, "-9.81 m/s^2", 0]
@@ -295,7 +296,7 @@ TEST_F(Case, resolved_text_gives_an_equal_problem)
 
 TEST_F(Case, resolved_text_holds_every_default)
 {
-    const std::string text = io::resolved_toml(write(valid_case));
+    const std::string text = io::read_case_with_warnings(write(valid_case)).resolved;
     for (const io::Key& key : io::all_keys())
         if (key.presence == io::Presence::defaulted && key.section.rfind("shape", 0) != 0 &&
             key.section.rfind("point", 0) != 0 && key.section.rfind("motion", 0) != 0 &&
@@ -368,7 +369,7 @@ TEST_F(Case, default_precision_is_mixed_where_motion_is_on_the_nodes)
     EXPECT_EQ(precision({"numerics.transfer=flip"}), f64);
     EXPECT_EQ(precision({"numerics.formulation=updated"}), f64);
     EXPECT_EQ(precision({"grid.particles_per_cell=27"}), f64);
-    const std::string resolved = io::resolved_toml(write(valid_case));
+    const std::string resolved = io::read_case_with_warnings(write(valid_case)).resolved;
     EXPECT_NE(resolved.find("precision = \"mixed\""), std::string::npos);
     EXPECT_EQ(io::read_case(write(resolved)).numerics.precision, mixed);
 }
@@ -383,7 +384,7 @@ TEST_F(Case, shear_strength_of_tension_bars)
     EXPECT_FALSE(law(valid_case).tau_max_axial.has_value());
     const std::vector<std::string> opening{"material.steel.decohesion.mode=opening"};
     EXPECT_FALSE(law(text, opening).tau_max_axial.has_value()); // no mode II at all
-    EXPECT_NEAR(law(io::resolved_toml(write(text))).tau_max_axial.value(), 1000, 1e-9);
+    EXPECT_NEAR(law(io::read_case_with_warnings(write(text)).resolved).tau_max_axial.value(), 1000, 1e-9);
 }
 
 TEST_F(Case, paper_preset)
@@ -487,6 +488,7 @@ TEST_F(Case, any_line_may_be_missing_or_hold_anything)
 
 TEST(Cases, shipped_cases_are_valid)
 {
+    const support::Folder folder;
     int count = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(CLEAVE_SOURCE_DIR "/cases")) {
         if (entry.path().extension() != ".toml") continue;
@@ -497,6 +499,8 @@ TEST(Cases, shipped_cases_are_valid)
         ++count;
         const io::Case read = io::read_case_with_warnings(entry.path());
         EXPECT_TRUE(read.warnings.empty()) << entry.path() << "\n" << read.warnings.front();
+        io::write_file(folder / "resolved.toml", read.resolved);
+        EXPECT_EQ(io::read_case_with_warnings(folder / "resolved.toml").resolved, read.resolved) << entry.path();
     }
     EXPECT_GE(count, 3);
 }

@@ -533,6 +533,26 @@ TEST(Separate, a_closed_crack_does_not_break_across)
     EXPECT_LT(probe.crack.second_time, 0);
 }
 
+/// Crossed, closed and pressed, then opened again: work in equals what was let go, none is left and none is lost.
+TEST(Separate, a_crossed_crack_that_opens_again_dissipates_what_it_stored)
+{
+    Probe probe = wide_open(true);
+    stretch_along(probe, 1e-6, 20000);
+    ASSERT_GT(probe.crack.second_time, 0);
+    press_together(probe);
+    const double stored = elastic_energy(steel(), probe.stress), dissipated = probe.decohesion_work;
+    ASSERT_GT(stored, 1);
+    double work = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const Sym old = probe.stress, strain{{3e-6, 0, 0, 0, 0, 0}};
+        probe.strain(strain);
+        work += 0.5 * core::contract(old + probe.stress, strain);
+    }
+    EXPECT_EQ(core::contract(probe.stress, probe.stress), 0);
+    EXPECT_LT(work, -0.5 * stored);
+    EXPECT_NEAR(probe.decohesion_work - dissipated, stored + work, 0.01 * stored);
+}
+
 /// B29: with equal energies the work does not depend on which of the modes the noise picked.
 TEST(Separate, energy_is_independent_of_the_mode_that_noise_picks)
 {

@@ -119,7 +119,7 @@ TEST_F(Program, a_preview_run_writes_every_file)
 {
     const test::Outcome outcome = test::run(tiny_preview(below("out")));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-    for (const char* file : {"history.csv", "log.txt", "resolved.toml", "run.json"})
+    for (const char* file : {"history.csv", "events.csv", "log.txt", "resolved.toml", "run.json"})
         EXPECT_GT(test::contents(below("out") / file).size(), 50U) << file;
     int particles = 0, grids = 0, volumes = 0, series = 0;
     for (const std::string& file : test::files_below(below("out"))) {
@@ -235,7 +235,10 @@ TEST_F(Program, bad_input_has_exit_code_2)
     EXPECT_NE(typo.output.find("cel"), std::string::npos) << typo.output;
     EXPECT_EQ(test::run(tiny_preview(below("out"), {"--set", "grid.cell=-1"})).exit_code, 2);
     EXPECT_EQ(test::run({"run", "--no-such-option"}).exit_code, 2);
-    EXPECT_EQ(test::run({"no-such-command"}).exit_code, 2);
+    const test::Outcome command = test::run({"chek"});
+    EXPECT_EQ(command.exit_code, 2);
+    EXPECT_NE(command.output.find("there is no command 'chek'; did you mean 'check'?"), std::string::npos)
+        << command.output;
 }
 
 TEST_F(Program, numerical_failure_has_exit_code_3)
@@ -269,4 +272,54 @@ TEST_F(Program, a_directory_that_holds_a_run_is_not_overwritten)
     ASSERT_EQ(test::run(tiny_preview(below("out"), brief)).exit_code, 75);
     EXPECT_EQ(test::run(tiny_preview(below("out"), brief)).exit_code, 2);
     EXPECT_EQ(test::run(tiny_preview(below("out"), {"--walltime", "0", "--force"})).exit_code, 75);
+}
+
+TEST_F(Program, a_refused_resume_leaves_the_run_as_it_was)
+{
+    ASSERT_EQ(test::run(tiny_preview(below("out"), {"--walltime", "0"})).exit_code, 75);
+    const std::string resolved = test::contents(below("out") / "resolved.toml");
+    const std::string record = test::contents(below("out") / "run.json");
+    EXPECT_EQ(test::run(tiny_preview(below("out"), {"--resume", "--set", "numerics.cfl=0.3"})).exit_code, 2);
+    EXPECT_EQ(test::contents(below("out") / "resolved.toml"), resolved);
+    EXPECT_EQ(test::contents(below("out") / "run.json"), record);
+}
+
+TEST_F(Program, force_removes_what_the_run_before_left)
+{
+    const std::vector<std::string> brief{"--set", "end.time=\"0.004 ms\"", "--set",
+                                         "output.vdb.every_time=\"1e-4 ms\""};
+    ASSERT_EQ(test::run(tiny_preview(below("out"), brief)).exit_code, 0);
+    std::ofstream(below("out") / "note.txt") << "the user's";
+    EXPECT_GT(test::files_below(below("out") / "vdb").size(), 20U);
+    ASSERT_EQ(test::run(tiny_preview(below("out"), {"--walltime", "0", "--force"})).exit_code, 75);
+    EXPECT_FALSE(fs::exists(below("out") / "vdb"));
+    EXPECT_FALSE(fs::exists(below("out") / "particles"));
+    EXPECT_TRUE(fs::exists(below("out") / "note.txt"));
+}
+
+TEST_F(Program, a_second_run_in_a_directory_is_refused)
+{
+    const fs::path output = below("out.txt");
+    const pid_t process = test::start(tiny_preview(below("out"), {"--set", "end.time=\"1.5 ms\""}), output);
+    for (int n = 0; n < 200 && !fs::exists(below("out") / "history.csv"); ++n) usleep(50000);
+    const std::string history = test::contents(below("out") / "history.csv");
+    for (const char* way : {"--resume", "--force"}) {
+        const test::Outcome second = test::run(tiny_preview(below("out"), {way}));
+        EXPECT_EQ(second.exit_code, 2) << way;
+        EXPECT_NE(second.output.find("another run is writing"), std::string::npos) << second.output;
+    }
+    kill(process, SIGTERM);
+    EXPECT_EQ(test::wait_for(process, output).exit_code, 75);
+    EXPECT_TRUE(test::contents(below("out") / "history.csv").starts_with(history));
+}
+
+TEST_F(Program, a_frame_that_cannot_be_written_is_on_record)
+{
+    fs::create_directories(below("out"));
+    std::ofstream(below("out") / "particles") << "in the way";
+    EXPECT_EQ(test::run(tiny_preview(below("out"))).exit_code, 4);
+    const io::RunRecord record = io::read_run_record(below("out") / "run.json");
+    EXPECT_EQ(record.status, "failed");
+    EXPECT_NE(record.exit_reason.find("particles"), std::string::npos) << record.exit_reason;
+    EXPECT_NE(test::contents(below("out") / "log.txt").find(record.exit_reason), std::string::npos);
 }

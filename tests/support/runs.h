@@ -50,6 +50,27 @@ inline particles::Particles particles_of(Job& run)
     return run.state.particles;
 }
 
+/// What is left of a run when only a checkpoint is: particles in stored order, leaves with their active cells, loads
+/// and clock; nodal: motion and force of the nodes.
+inline Job resumed(const Job& run)
+{
+    Job again{run.problem, run.prepared, {}, run.state};
+    solver::State& state = again.state;
+    if (solver::nodal(run.problem)) {
+        transfer::fill_columns(state.levels, state.lattice, state.particles);
+        state.lattice = {};
+        for (grid::NodeForce& node : state.levels.force) node.per_mass = 0;
+    } else {
+        state.levels.motion.clear();
+    }
+    state.levels.topology = nullptr;
+    state.levels.sum.clear();
+    state.levels.interface.clear();
+    state.strays = {};
+    solver::resume(again.problem, again.prepared, state, again.derived);
+    return again;
+}
+
 /// A formulation with the stress update the case reader gives it.
 inline solver::Numerics numerics(solver::Formulation formulation)
 {

@@ -202,7 +202,7 @@ void advance(Real dt, Scene& scene)
     transfer::advance_and_scatter(scene.options, scene.laws, scene.strays, scene.particles, scene.levels,
                                   scene.leaf_work);
     for (const transfer::LeafWork& work : scene.leaf_work) scene.plastic_work += work.plastic;
-    if (transfer::worth_reordering(scene.strays, scene.particles)) order(scene);
+    if (transfer::worth_reordering(scene.options, scene.strays, scene.particles)) order(scene);
 }
 
 Vec3 vector_of(const std::array<particles::Column, 3>& columns, std::size_t p)

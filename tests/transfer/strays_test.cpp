@@ -58,7 +58,7 @@ TEST(Strays, ask_for_an_ordering_where_levels_meet_or_no_leaf_is)
         support::Scene scene = two_levels(transfer::Basis::trilinear);
         EXPECT_LT(slot_of_stray(scaled, 0, scene), 0);
         EXPECT_TRUE(scene.strays.outside) << scaled.transpose();
-        EXPECT_TRUE(transfer::worth_reordering(scene.strays, scene.particles));
+        EXPECT_TRUE(transfer::worth_reordering(scene.options, scene.strays, scene.particles));
     }
 }
 

@@ -1,5 +1,6 @@
 // Stability of nested impulses on the bar of methods.md A.7, by the spectral radius of one step of the coarsest level.
 #include "core/real.h"
+#include "solver/stable_time_step.h"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -86,6 +87,7 @@ constexpr Real rounding = 1e-6; // two eigenvalues of the free motion coincide a
 
 TEST(Subcycling, nested_impulses_are_stable_up_to_a_cfl_of_0_7)
 {
+    EXPECT_LE(solver::subcycled_step_share, 0.7);
     for (const std::vector<int>& cells :
          {std::vector<int>{8, 4}, {16, 8}, {24, 6}, {7, 15}, {8, 4, 4}, {16, 6, 5}, {4, 4, 9}})
         for (Real cfl = 0.05; cfl < 0.701; cfl += 0.05)
