@@ -7,18 +7,14 @@ namespace grid
 {
 namespace
 {
-/// `add(own, halo)` for every halo entry of the seven lower neighbours, in the fixed order of `axes`.
+/// `add(own, halo)` for every halo entry of the lower neighbours of every leaf.
 template <class Add>
 void gather_from_lower(Levels& levels, const Add& add)
 {
     core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
         NodeSum* own = levels.sums(n);
-        for (int axes = 1; axes < 8; ++axes) {
-            const std::int32_t lower = neighbour(levels.leaves[n], axes, -1);
-            if (lower < 0) continue;
-            const NodeSum* other = levels.sums(static_cast<std::size_t>(lower));
-            for_shared_nodes(axes, levels.used[n], [&](int mine, int halo) { add(own[mine], other[halo]); });
-        }
+        for_lower_halos(levels, n,
+                        [&](std::size_t lower, int mine, int halo) { add(own[mine], levels.sums(lower)[halo]); });
     });
 }
 } // namespace

@@ -36,14 +36,9 @@ void assemble_masses(const std::vector<Real>& mass_cutoff, Levels& levels)
 void add_lower_halos(std::size_t leaf, Levels& levels)
 {
     NodeForce* own = levels.forces(leaf);
-    for (int axes = 1; axes < 8; ++axes) {
-        const std::int32_t lower = neighbour(levels.leaves[leaf], axes, -1);
-        if (lower < 0) continue;
-        const NodeForce* other = levels.forces(static_cast<std::size_t>(lower));
-        for_shared_nodes(axes, levels.used[leaf], [&](int mine, int halo) {
-            for (std::size_t a = 0; a < 3; ++a) own[mine].force[a] += other[halo].force[a];
-        });
-    }
+    for_lower_halos(levels, leaf, [&](std::size_t lower, int mine, int halo) {
+        for (std::size_t a = 0; a < 3; ++a) own[mine].force[a] += levels.forces(lower)[halo].force[a];
+    });
 }
 
 /// What a step keeps of the velocity and takes of the impulse under damping a: v+ = kept v + reached dt (f / m + g).

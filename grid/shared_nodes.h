@@ -33,4 +33,17 @@ inline std::int32_t neighbour(const Leaf& leaf, int axes, int sign)
     const int c = axes & 4 ? sign : 0;
     return leaf.neighbour[static_cast<std::size_t>(9 * a + 3 * b + c + 13)];
 }
+
+/// `add(lower leaf, own node, halo node)` for every halo entry of the seven lower neighbours of a leaf, in a fixed
+/// order.
+template <class Add>
+void for_lower_halos(const Levels& levels, std::size_t leaf, const Add& add)
+{
+    for (int axes = 1; axes < 8; ++axes) {
+        const std::int32_t lower = neighbour(levels.leaves[leaf], axes, -1);
+        if (lower < 0) continue;
+        for_shared_nodes(axes, levels.used[leaf],
+                         [&](int mine, int halo) { add(static_cast<std::size_t>(lower), mine, halo); });
+    }
+}
 } // namespace grid

@@ -1,5 +1,6 @@
 #include "core/parallel.h"
 #include "transfer/advance_plain.h"
+#include "transfer/each_stray.h"
 #include "transfer/gimp_passes.h"
 #include "transfer/interface_affine.h"
 #include "transfer/passes.h"
@@ -50,17 +51,12 @@ void advance_leaf(const PassOptions& options, const LawTable& laws, std::size_t 
 void advance_strays(const PassOptions& options, const LawTable& laws, const Strays& strays, const grid::Levels& levels,
                     particles::Particles& particles, std::vector<LeafOutcome>& outcome)
 {
-    if (strays.size() == 0) return;
-    core::parallel_for(strays.run.size() - 1, [&](std::size_t r) {
-        with_stress_update(options, [&]<Formulation F, Transfer T, StressUpdate S>() {
-            for (std::uint32_t s = strays.run[r]; s < strays.run[r + 1]; ++s) {
-                const auto leaf = static_cast<std::size_t>(strays.leaf[s]);
-                const std::uint32_t p = strays.particle[s];
-                const std::vector<AffineChunk> affine = affine_of_stray(options, levels, strays, s, particles);
-                advance_cell<F, T, S>(options, laws, cell_frame(leaf_frame(levels, leaf), strays.cell[s]),
-                                      Visitors::stray, levels.motions(leaf), p, p + 1, particles, outcome[leaf]);
-                store_affine(affine, particles);
-            }
+    with_stress_update(options, [&]<Formulation F, Transfer T, StressUpdate S>() {
+        for_each_stray(strays, [&](std::uint32_t s, std::size_t leaf, std::uint32_t p) {
+            const std::vector<AffineChunk> affine = affine_of_stray(options, levels, strays, s, particles);
+            advance_cell<F, T, S>(options, laws, frame_of_stray(levels, strays, s), Visitors::stray,
+                                  levels.motions(leaf), p, p + 1, particles, outcome[leaf]);
+            store_affine(affine, particles);
         });
     });
 }

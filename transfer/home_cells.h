@@ -1,9 +1,7 @@
 /// Walk over particles together with the cell each is in now, for work beside the passes.
 #pragma once
 
-#include "core/parallel.h"
-#include "transfer/chunk.h"
-#include "transfer/strays.h"
+#include "transfer/each_stray.h"
 
 #include <algorithm>
 
@@ -24,12 +22,8 @@ void for_each_in_cell(const Strays& strays, const particles::Particles& particle
             for (std::uint32_t p = start[c]; p < start[c + 1]; ++p)
                 if (particles.away[p] == 0) serve(n, cell_frame(leaf, c), p);
     });
-    if (strays.size() == 0) return;
-    core::parallel_for(strays.run.size() - 1, [&](std::size_t r) {
-        for (std::uint32_t s = strays.run[r]; s < strays.run[r + 1]; ++s) {
-            const auto leaf = static_cast<std::size_t>(strays.leaf[s]);
-            serve(leaf, cell_frame(leaf_frame(levels, leaf), strays.cell[s]), strays.particle[s]);
-        }
+    for_each_stray(strays, [&](std::uint32_t s, std::size_t leaf, std::uint32_t p) {
+        serve(leaf, frame_of_stray(levels, strays, s), p);
     });
 }
 

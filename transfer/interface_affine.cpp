@@ -3,6 +3,7 @@
 #include "core/parallel.h"
 #include "transfer/advance_cell.h"
 #include "transfer/cell_sum.h"
+#include "transfer/each_stray.h"
 
 #include <algorithm>
 
@@ -164,19 +165,14 @@ void scatter_affine(const PassOptions& options, const particles::Particles& part
 void scatter_stray_affine(const PassOptions& options, const Strays& strays, const particles::Particles& particles,
                           grid::Levels& levels)
 {
-    if (options.transfer != Transfer::apic || strays.size() == 0) return;
-    core::parallel_for(strays.run.size() - 1, [&](std::size_t r) {
-        for (std::uint32_t s = strays.run[r]; s < strays.run[r + 1]; ++s) {
-            const auto leaf = static_cast<std::size_t>(strays.leaf[s]);
-            const HangingRange range = cell_of_stray(levels, strays, s);
-            if (range.begin == range.end) continue;
-            grid::CornerAffine& target = interface_of(levels, leaf).hanging.affine[range.begin];
-            AffineSum sum = load_sum(target);
-            const std::size_t p = strays.particle[s];
-            add_cell<Formulation::updated>(cell_frame(leaf_frame(levels, leaf), strays.cell[s]),
-                                           {Visitors::stray, p, p + 1}, particles, sum);
-            store_sum(sum, target);
-        }
+    if (options.transfer != Transfer::apic) return;
+    for_each_stray(strays, [&](std::uint32_t s, std::size_t leaf, std::size_t p) {
+        const HangingRange range = cell_of_stray(levels, strays, s);
+        if (range.begin == range.end) return;
+        grid::CornerAffine& target = interface_of(levels, leaf).hanging.affine[range.begin];
+        AffineSum sum = load_sum(target);
+        add_cell<Formulation::updated>(frame_of_stray(levels, strays, s), {Visitors::stray, p, p + 1}, particles, sum);
+        store_sum(sum, target);
     });
 }
 } // namespace transfer

@@ -1,5 +1,6 @@
 #include "core/parallel.h"
 #include "grid/walls.h"
+#include "transfer/each_stray.h"
 #include "transfer/gimp_passes.h"
 #include "transfer/interface_affine.h"
 #include "transfer/passes.h"
@@ -116,17 +117,12 @@ void remap_momentum(const PassOptions& options, Strays& strays, particles::Parti
             }
             scatter_affine(options, particles, n, levels);
         });
-        if (strays.size() == 0) return;
-        core::parallel_for(strays.run.size() - 1, [&](std::size_t r) {
-            for (std::uint32_t s = strays.run[r]; s < strays.run[r + 1]; ++s) {
-                const auto leaf = static_cast<std::size_t>(strays.leaf[s]);
-                const std::uint32_t p = strays.particle[s];
-                const HangingRange hanging = hanging_for<T>(levels, leaf);
-                const std::optional<HangingSlopes> masters = slopes_of<T>(levels, hanging, leaf, strays.cell[s]);
-                remap_cell<F, T, false>(options, cell_frame(leaf_frame(levels, leaf), strays.cell[s]), Visitors::stray,
-                                        masters ? &*masters : nullptr, levels.motions(leaf), p, p + 1, particles,
-                                        levels.sums(leaf));
-            }
+        for_each_stray(strays, [&](std::uint32_t s, std::size_t leaf, std::uint32_t p) {
+            const HangingRange hanging = hanging_for<T>(levels, leaf);
+            const std::optional<HangingSlopes> masters = slopes_of<T>(levels, hanging, leaf, strays.cell[s]);
+            remap_cell<F, T, false>(options, frame_of_stray(levels, strays, s), Visitors::stray,
+                                    masters ? &*masters : nullptr, levels.motions(leaf), p, p + 1, particles,
+                                    levels.sums(leaf));
         });
     });
     scatter_stray_affine(options, strays, particles, levels);

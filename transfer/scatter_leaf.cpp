@@ -2,6 +2,7 @@
 
 #include "core/parallel.h"
 #include "grid/walls.h"
+#include "transfer/each_stray.h"
 #include "transfer/scatter_cell.h"
 
 namespace transfer
@@ -49,15 +50,10 @@ void scatter_leaf(const PassOptions& options, const LawTable& laws, const partic
 void scatter_strays(const PassOptions& options, const LawTable& laws, const Strays& strays,
                     const particles::Particles& particles, grid::Levels& levels)
 {
-    if (strays.size() == 0) return;
-    core::parallel_for(strays.run.size() - 1, [&](std::size_t r) {
-        with_scheme(options, [&]<Formulation F, Transfer T>() {
-            for (std::uint32_t s = strays.run[r]; s < strays.run[r + 1]; ++s) {
-                const auto leaf = static_cast<std::size_t>(strays.leaf[s]);
-                const std::uint32_t p = strays.particle[s];
-                scatter_cell<F, T>(cell_frame(leaf_frame(levels, leaf), strays.cell[s]), Visitors::stray, laws,
-                                   particles, p, p + 1, levels.sums(leaf));
-            }
+    with_scheme(options, [&]<Formulation F, Transfer T>() {
+        for_each_stray(strays, [&](std::uint32_t s, std::size_t leaf, std::uint32_t p) {
+            scatter_cell<F, T>(frame_of_stray(levels, strays, s), Visitors::stray, laws, particles, p, p + 1,
+                               levels.sums(leaf));
         });
     });
 }
