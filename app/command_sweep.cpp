@@ -54,7 +54,6 @@ std::vector<StudyRun> planned_runs(const io::Sweep& sweep, const fs::path& direc
 int write_slurm(const Options& options, const io::Sweep& sweep, std::vector<StudyRun> runs)
 {
     std::erase_if(runs, [](const StudyRun& run) { return run.resolved.empty(); });
-    if (runs.empty()) throw core::InputError("no run of the sweep is applicable: nothing to queue");
     for (StudyRun& run : runs) {
         run.file = fs::absolute(run.file);
         run.directory = fs::absolute(run.directory);
@@ -74,6 +73,11 @@ int sweep(Options options)
     std::vector<StudyRun> runs = planned_runs(sweep, directory);
     for (const StudyRun& run : runs)
         if (run.resolved.empty()) fmt::print("{}: not applicable\n{}\n", run.label, run.not_applicable);
+    const auto applicable =
+        std::find_if(runs.begin(), runs.end(), [](const StudyRun& run) { return !run.resolved.empty(); });
+    if (applicable == runs.end())
+        throw core::InputError(fmt::format("{}: no run of the sweep is applicable", options.file));
+    check_targets(sweep, applicable->problem);
     if (!options.slurm.empty()) return write_slurm(options, sweep, std::move(runs));
     const int hardware = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     options.study.threads = sweep.threads;

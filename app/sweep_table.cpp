@@ -6,6 +6,7 @@
 #include "io/csv.h"
 #include "io/diagnostics.h"
 #include "io/run_record.h"
+#include "solver/measures.h"
 
 #include <fmt/format.h>
 
@@ -45,15 +46,7 @@ const std::string* find_measure(const SweepRow& row, const std::string& name)
 Real relative_error(const SweepRow& row, const io::SweepTarget& target)
 {
     const std::string* text = find_measure(row, target.measure);
-    if (!text) {
-        std::vector<std::string> names;
-        for (const auto& measure : row.measures) names.push_back(measure.first);
-        const std::string near = io::nearest_name(target.measure, names);
-        throw core::InputError(fmt::format("target '{}': the runs have no such measure{}\nmeasures: {}", target.measure,
-                                           near.empty() ? "" : fmt::format("; did you mean '{}'?", near),
-                                           io::joined(names)));
-    }
-    return text->empty() ? nan : std::strtod(text->c_str(), nullptr) / target.value - 1;
+    return !text || text->empty() ? nan : std::strtod(text->c_str(), nullptr) / target.value - 1;
 }
 
 SweepRow row_of(const io::Sweep& sweep, const StudyRun& run)
@@ -76,6 +69,21 @@ SweepRow row_of(const io::Sweep& sweep, const StudyRun& run)
     return row;
 }
 } // namespace
+
+void check_targets(const io::Sweep& sweep, const solver::Problem& problem)
+{
+    std::vector<std::string> names;
+    const std::vector<solver::LigamentState> intact(problem.ligaments.size());
+    for (const solver::Measure& measure : solver::measures(problem, {}, intact).numbers) names.push_back(measure.name);
+    for (const solver::Quantity& quantity : problem.quantities) names.push_back(quantity.name);
+    for (const io::SweepTarget& target : sweep.targets) {
+        if (std::find(names.begin(), names.end(), target.measure) != names.end()) continue;
+        const std::string near = io::nearest_name(target.measure, names);
+        throw core::InputError(fmt::format(
+            "{}: target '{}': the runs have no such measure{}\nmeasures: {}", sweep.file.string(), target.measure,
+            near.empty() ? "" : fmt::format("; did you mean '{}'?", near), io::joined(names)));
+    }
+}
 
 std::vector<SweepRow> sweep_rows(const io::Sweep& sweep, const std::vector<StudyRun>& runs)
 {

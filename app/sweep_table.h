@@ -17,9 +17,11 @@ struct SweepRow
     std::vector<std::string> set;
 };
 
+/// @param problem  of one of the runs
+/// @error core::InputError for a target that they do not measure
+void check_targets(const io::Sweep& sweep, const solver::Problem& problem);
+
 /// Rows of all runs, the nearest first, then those without distance in the order of the sweep.
-///
-/// @error core::InputError for a target that no run.json has
 std::vector<SweepRow> sweep_rows(const io::Sweep& sweep, const std::vector<StudyRun>& runs);
 
 std::string sweep_csv(const std::vector<SweepRow>& rows);
