@@ -248,8 +248,8 @@ void check_case(Draft& draft)
     if (!draft.grid.sound) return;
     check_particles_per_cell(draft);
     check_symmetry(draft);
-    // Whether something lies in a body can only be told when every body is known.
-    if (draft.problem.bodies.empty() || !all_sound(draft.bodies)) return;
+    // Whether something lies in a body can only be told when every body is known, and what was cut out of it.
+    if (draft.problem.bodies.empty() || !all_sound(draft.bodies) || !all_sound(draft.features)) return;
     check_zones(draft);
     check_loads(draft, all_sound(draft.materials) && !draft.materials.empty());
     check_surface_loads(draft);

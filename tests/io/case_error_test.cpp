@@ -54,6 +54,31 @@ TEST_F(CaseError, lode_memory_needs_a_ball_and_two_strengths)
     EXPECT_TRUE(contains(text, "case.toml:12:15: error: without tau_max_axial all states have one strength\n"));
 }
 
+// The hole is cut out of the body, and the zone and the gauge lie beside it: nothing is said of these.
+TEST_F(CaseError, a_wrong_feature_is_one_error)
+{
+    const std::string text = complaint(with(valid_case, "centre = [8, 5, 0]", "centre = [8, 5]"));
+    EXPECT_TRUE(contains(text, "case.toml:18:10: error: "));
+    EXPECT_TRUE(text.ends_with("\n1 error")) << text;
+}
+
+TEST_F(CaseError, a_measure_outside_every_body)
+{
+    const std::string text =
+        complaint(std::string(valid_case) + "[[measure]]\nname = \"far\"\nprobe = { field = "
+                                            "\"displacement\", component = \"y\", point = [100, 1, 1] }\n");
+    EXPECT_TRUE(contains(text, "error: a point of measure 'far' lies 90 mm outside every body\n"));
+    EXPECT_TRUE(text.ends_with("\n1 error")) << text;
+}
+
+TEST_F(CaseError, a_gauge_without_forces_is_a_warning)
+{
+    const std::string text = with(valid_case, "[forces]\nupper = \"pin\"\nlower = \"base\"\n", "");
+    const std::vector<std::string> warnings = io::read_case_with_warnings(write(text)).warnings;
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_TRUE(contains(warnings[0], "no [forces]"));
+}
+
 TEST_F(CaseError, misspelt_section)
 {
     const std::string text = complaint(with(valid_case, "[forces]", "[force]"));

@@ -61,6 +61,32 @@ auto value_at(const Grid& grid, const Vec3& point)
 }
 } // namespace
 
+// Alone in its cell, 128 voxels wide, and it has moved: it touches 129 along every axis.
+TEST(VdbFile, a_particle_of_the_coarsest_of_eight_levels_is_spread_whole)
+{
+    grid::Levels levels;
+    levels.count = 8;
+    levels.spacing0 = 1;
+    particles::Particles particles;
+    particles.mass = particles.rest_volume = {1};
+    particles.eq_plastic_strain = {0};
+    particles.crack = {-1};
+    particles.size_level = {0};
+    for (std::size_t a = 0; a < 3; ++a) {
+        particles.position[a] = {0.503};
+        particles.velocity[a] = {0};
+    }
+    Real sum = 0;
+    int touched = 0;
+    for (const io::VoxelBlock& block : io::sum_voxels(particles, levels, 1))
+        for (const float mass : block.mass) {
+            sum += mass;
+            touched += mass > 0;
+        }
+    EXPECT_EQ(touched, 129 * 129 * 129);
+    EXPECT_NEAR(sum, 1, 1e-5);
+}
+
 TEST(VoxelSums, KeepTheMassWhereverTheParticlesAre)
 {
     solver::State state = sample::state();
