@@ -201,7 +201,8 @@ Forecast forecast(const solver::Problem& problem, const ParticleCount& counted)
         forecast.particle_steps += forecast.steps * static_cast<Real>(forecast.particles[l]) *
                                    (problem.numerics.subcycling ? Real(1 << l) : Real(1));
     const Real particles = static_cast<Real>(forecast.total_particles());
-    forecast.memory = bytes_per_particle * particles + bytes_per_leaf * static_cast<Real>(forecast.leaves);
+    forecast.memory =
+        program_bytes + bytes_per_particle * particles + bytes_per_leaf * static_cast<Real>(forecast.leaves);
     forecast.particle_frames = frames(problem.output.particles, forecast, problem);
     forecast.particle_bytes = forecast.particle_frames * particles * bytes_per_written_particle(problem.output);
     forecast.grid_frames = frames(problem.output.grid, forecast, problem);

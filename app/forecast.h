@@ -13,7 +13,8 @@ namespace app
 /// hand.
 Real assumed_steps_per_s(const solver::Numerics& numerics);
 
-inline constexpr Real bytes_per_particle = 300; // byte, columns and sorting buffers, at the beginning and for output
+inline constexpr Real program_bytes = 50e6;     // byte, with its libraries
+inline constexpr Real bytes_per_particle = 360; // byte, columns and sorting buffers, at the beginning and for output
 inline constexpr Real bytes_per_leaf = 120e3;   // byte, tile of 9^3 nodes with sums and motion, and tables
 
 /// What a grid holds: hangs on bodies, zones and [grid] alone.

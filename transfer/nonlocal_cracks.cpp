@@ -88,7 +88,7 @@ std::vector<Vec3> arriving_cracks(const NonlocalView& view, const particles::Par
     const core::Mat<Real> deformation = motion_of(view, particles, slot).deformation;
     std::vector<Vec3> ways;
     for (const Neighbour& other : cracks_near(view, particles, slot, beside)) {
-        if (other.offset.cwiseAbs().maxCoeff() > beside) continue;
+        if (other.slot == slot || other.offset.cwiseAbs().maxCoeff() > beside) continue;
         const Vec3 normal = at_rest(deformation, other.crack->normal);
         const Real across = other.offset.dot(normal);
         if (2 * across * across <= (1 + rounding) * other.offset.squaredNorm())

@@ -488,7 +488,7 @@ TEST_F(Case, any_line_may_be_missing_or_hold_anything)
 
 TEST(Cases, shipped_cases_are_valid)
 {
-    const support::Folder folder;
+    const support::Folder scratch;
     int count = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(CLEAVE_SOURCE_DIR "/cases")) {
         if (entry.path().extension() != ".toml") continue;
@@ -499,8 +499,8 @@ TEST(Cases, shipped_cases_are_valid)
         ++count;
         const io::Case read = io::read_case_with_warnings(entry.path());
         EXPECT_TRUE(read.warnings.empty()) << entry.path() << "\n" << read.warnings.front();
-        io::write_file(folder / "resolved.toml", read.resolved);
-        EXPECT_EQ(io::read_case_with_warnings(folder / "resolved.toml").resolved, read.resolved) << entry.path();
+        io::write_file(scratch / "resolved.toml", read.resolved);
+        EXPECT_EQ(io::read_case_with_warnings(scratch / "resolved.toml").resolved, read.resolved) << entry.path();
     }
     EXPECT_GE(count, 3);
 }
