@@ -71,12 +71,9 @@ void keep_scenes(const std::vector<std::string>& wanted, io::Suite& suite)
     std::vector<std::string> names;
     for (const io::Scene& scene : suite.scenes) names.push_back(scene.name);
     for (const std::string& name : wanted)
-        if (std::find(names.begin(), names.end(), name) == names.end()) {
-            const std::string near = io::nearest_name(name, names);
+        if (std::find(names.begin(), names.end(), name) == names.end())
             throw core::InputError(fmt::format("the suite has no scene '{}'{}\nscenes: {}", name,
-                                               near.empty() ? "" : fmt::format("; did you mean '{}'?", near),
-                                               io::joined(names)));
-        }
+                                               io::nearest_hint(name, names, "; "), io::joined(names)));
     std::erase_if(suite.scenes, [&](const io::Scene& scene) {
         return std::find(wanted.begin(), wanted.end(), scene.name) == wanted.end();
     });

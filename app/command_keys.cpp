@@ -55,10 +55,8 @@ std::vector<std::string> sections_named(const std::string& wanted)
     if (found.empty()) {
         std::vector<std::string> names;
         for (const std::string& section : all) names.push_back(shown_name(section));
-        const std::string near = io::nearest_name(wanted, names);
         throw core::InputError(fmt::format("there is no section '{}'{}\nsections: {}", wanted,
-                                           near.empty() ? "" : fmt::format("; did you mean '{}'?", near),
-                                           io::joined(names)));
+                                           io::nearest_hint(wanted, names, "; "), io::joined(names)));
     }
     return found;
 }

@@ -22,9 +22,8 @@ std::string complaint(const CLI::App& program, const std::string& name)
     for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
         names.push_back(command->get_name());
     if (std::find(names.begin(), names.end(), name) != names.end()) return "";
-    const std::string near = io::nearest_name(name, names);
-    return fmt::format("there is no command '{}'{}\ncommands: {}\n", name,
-                       near.empty() ? "" : fmt::format("; did you mean '{}'?", near), io::joined(names));
+    return fmt::format("there is no command '{}'{}\ncommands: {}\n", name, io::nearest_hint(name, names, "; "),
+                       io::joined(names));
 }
 } // namespace
 

@@ -137,17 +137,14 @@ void Schedule::skip_to(const solver::Clock& clock, Real largest_cod)
 
 fs::path result_directory(const RunOptions& options)
 {
-    if (!options.directory.empty()) {
-        if (holds_run(options.directory) && !options.resume && !options.force)
+    const bool named = !options.directory.empty(), again = options.resume || options.force;
+    const std::string name = fs::path(options.file).stem().string();
+    fs::path directory = named ? fs::path(options.directory) : fs::path("results") / name;
+    if (named || again) {
+        if (holds_run(directory) && !again)
             throw core::InputError(fmt::format("{} holds a run already. --resume continues it, --force replaces it, or "
                                                "choose another -o.",
                                                options.directory));
-        io::make_directory(options.directory);
-        return options.directory;
-    }
-    const std::string name = fs::path(options.file).stem().string();
-    fs::path directory = fs::path("results") / name;
-    if (options.resume || options.force) {
         io::make_directory(directory);
         return directory;
     }

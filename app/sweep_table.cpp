@@ -78,10 +78,9 @@ void check_targets(const io::Sweep& sweep, const solver::Problem& problem)
     for (const solver::Quantity& quantity : problem.quantities) names.push_back(quantity.name);
     for (const io::SweepTarget& target : sweep.targets) {
         if (std::find(names.begin(), names.end(), target.measure) != names.end()) continue;
-        const std::string near = io::nearest_name(target.measure, names);
-        throw core::InputError(fmt::format(
-            "{}: target '{}': the runs have no such measure{}\nmeasures: {}", sweep.file.string(), target.measure,
-            near.empty() ? "" : fmt::format("; did you mean '{}'?", near), io::joined(names)));
+        throw core::InputError(fmt::format("{}: target '{}': the runs have no such measure{}\nmeasures: {}",
+                                           sweep.file.string(), target.measure,
+                                           io::nearest_hint(target.measure, names, "; "), io::joined(names)));
     }
 }
 

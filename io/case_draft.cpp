@@ -55,9 +55,7 @@ int material_index(Draft& draft, const std::string& name, const Place& place)
 void unknown_name(Draft& draft, const Place& place, std::string_view kind, std::string_view name,
                   const std::vector<std::string>& candidates)
 {
-    const std::string near = nearest_name(name, candidates);
-    draft.diagnostics.error(place, fmt::format("there is no {} '{}'", kind, name),
-                            near.empty() ? "" : fmt::format("did you mean '{}'?", near),
+    draft.diagnostics.error(place, fmt::format("there is no {} '{}'", kind, name), nearest_hint(name, candidates),
                             {candidates.empty() ? fmt::format("the case has no {}s", kind)
                                                 : fmt::format("{}s here: {}", kind, joined(candidates))});
 }

@@ -111,6 +111,12 @@ std::string nearest_name(std::string_view misspelt, const std::vector<std::strin
     return best;
 }
 
+std::string nearest_hint(std::string_view misspelt, const std::vector<std::string>& candidates, std::string_view before)
+{
+    const std::string near = nearest_name(misspelt, candidates);
+    return near.empty() ? "" : fmt::format("{}did you mean '{}'?", before, near);
+}
+
 std::string joined(const std::vector<std::string>& names, std::string_view separator)
 {
     return fmt::format("{}", fmt::join(names, separator));

@@ -60,6 +60,10 @@ private:
 /// is close enough to be meant.
 std::string nearest_name(std::string_view misspelt, const std::vector<std::string>& candidates);
 
+/// `before` and "did you mean 'x'?" with the nearest candidate, or nothing.
+std::string nearest_hint(std::string_view misspelt, const std::vector<std::string>& candidates,
+                         std::string_view before = "");
+
 /// "a, b, c".
 std::string joined(const std::vector<std::string>& names, std::string_view separator = ", ");
 } // namespace io

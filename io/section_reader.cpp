@@ -147,11 +147,10 @@ std::size_t SectionReader::choice_index(std::string_view name, std::size_t fallb
         if (const std::optional<std::string> read = read_text(*found, wanted, diagnostics_)) {
             const auto match = std::find(choices.begin(), choices.end(), *read);
             index = match == choices.end() ? fallback : static_cast<std::size_t>(match - choices.begin());
-            const std::string near = nearest_name(*read, choices);
+            const std::string hint = nearest_hint(*read, choices);
             if (match == choices.end())
                 diagnostics_.error(found->place, fmt::format("'{}' is not a value of '{}'", *read, name),
-                                   near.empty() ? fmt::format("expected {}", expected(wanted))
-                                                : fmt::format("did you mean '{}'?", near),
+                                   hint.empty() ? fmt::format("expected {}", expected(wanted)) : hint,
                                    {fmt::format("values: {}", joined(choices))});
         }
     record(name, node(std::string_view(choices[index])));
@@ -296,7 +295,6 @@ void SectionReader::finish()
     for (const Key* candidate : keys_of(schema_)) known.emplace_back(candidate->name);
     for (const Entry& entry : table_->entries) {
         if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
-        const std::string near = nearest_name(entry.key, known);
         std::vector<std::string> sorted = known;
         std::sort(sorted.begin(), sorted.end());
         diagnostics_.error(
@@ -305,7 +303,7 @@ void SectionReader::finish()
                         !path_.empty()    ? fmt::format("in [{}]", path_)
                         : schema_.empty() ? "at the top of the case"
                                           : "at the top of the file"),
-            near.empty() ? "" : fmt::format("did you mean '{}'?", near),
+            nearest_hint(entry.key, known),
             {fmt::format("keys here: {}     (cleave keys {})", joined(sorted), schema_.empty() ? "case" : schema_)});
     }
 }

@@ -63,12 +63,10 @@ std::vector<Axis> named_axes(Diagnostics& diagnostics, const Node& product, cons
         const auto found = std::find_if(known.begin(), known.end(), [&](const Axis& a) { return a.name == name.text; });
         if (name.kind == Node::Kind::text && found != known.end())
             axes.push_back(*found);
-        else {
-            const std::string near = nearest_name(name.text, names_of(known));
+        else
             diagnostics.error(name.place, fmt::format("there is no axis '{}'", name.text),
-                              near.empty() ? "" : fmt::format("did you mean '{}'?", near),
+                              nearest_hint(name.text, names_of(known)),
                               {fmt::format("axes here: {}", joined(names_of(known)))});
-        }
     }
     return axes;
 }

@@ -91,10 +91,8 @@ const solver::Reference* find_reference(Diagnostics& diagnostics, SectionReader&
         if (reference.name == *name) return &reference;
         names.push_back(reference.name);
     }
-    const std::string near = nearest_name(*name, names);
     diagnostics.error(section.place("reference"), fmt::format("the case has no reference '{}'", *name),
-                      near.empty() ? "" : fmt::format("did you mean '{}'?", near),
-                      {fmt::format("references there: {}", joined(names))});
+                      nearest_hint(*name, names), {fmt::format("references there: {}", joined(names))});
     return nullptr;
 }
 

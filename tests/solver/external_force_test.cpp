@@ -38,6 +38,13 @@ solver::Problem free_bar(Real cell)
     return problem;
 }
 
+/// A corner of a bar on a second level.
+void add_fine_corner(solver::Problem& problem)
+{
+    problem.grid.levels = 2;
+    problem.zones = {support::zone(geometry::box({-1, -1, -1}, {1.1, 1.9, 2}), 1)};
+}
+
 const solver::Numerics schemes[] = {
     support::numerics(solver::Formulation::updated), support::gimp_numerics(solver::Transfer::flip),
     support::gimp_numerics(solver::Transfer::apic),  support::numerics(solver::Formulation::total),
@@ -102,8 +109,7 @@ TEST(ExternalForce, accelerates_a_free_body_by_its_total_and_does_the_work_it_ga
     for (const solver::Numerics& numerics : schemes) {
         solver::Problem problem = free_bar(0.5);
         problem.numerics = numerics;
-        problem.grid.levels = 2;
-        problem.zones = {support::zone(geometry::box({-1, -1, -1}, {1.1, 1.9, 2}), 1)};
+        add_fine_corner(problem);
         problem.surface_loads = {surface_load(Kind::traction, support::beyond(0, 1.6, 1), 0, {3, 0, 0})};
         problem.surface_loads[0].facing = Vec3(1, 0, 0);
         Job run = support::started(problem);
@@ -127,8 +133,7 @@ TEST(ExternalForce, damping_neither_bears_a_body_at_rest_nor_takes_work_from_it)
         problem.force_upper = problem.force_lower = "bottom";
         problem.numerics = numerics;
         problem.numerics.damping = 600; // near the critical one: 300 rad/ms along the bar
-        problem.grid.levels = 2;
-        problem.zones = {support::zone(geometry::box({-1, -1, -1}, {1.1, 1.9, 2}), 1)};
+        add_fine_corner(problem);
         problem.surface_loads = {surface_load(Kind::traction, support::beyond(1, 3.6, 1), 0, {0, 0.1, 0})};
         problem.surface_loads[0].facing = Vec3(0, 1, 0);
         Job run = support::started(problem);
@@ -169,8 +174,7 @@ TEST(ExternalForce, goes_on_with_the_same_bits_after_a_restart)
         solver::Problem problem = free_bar(0.5);
         problem.numerics = numerics;
         problem.numerics.damping = 3;
-        problem.grid.levels = 2;
-        problem.zones = {support::zone(geometry::box({-1, -1, -1}, {1.1, 1.9, 2}), 1)};
+        add_fine_corner(problem);
         problem.motions = {{"spin", problem.materials[0].elastic, solver::Spin{{1, 2, 0.5}, 2, 15, {30, 0, 0}}}};
         problem.bodies[0].initial = 0;
         problem.bodies[0].body_force = 0;

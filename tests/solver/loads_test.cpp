@@ -50,16 +50,24 @@ Real angular_momentum(const particles::Particles& particles)
     return sum;
 }
 
-/// Angular momentum of the nodes about the z axis through the origin; nodal scheme.
-Real moment_of(const Job& run)
+/// `visit(x, momentum)` for the free nodes with mass; nodal scheme.
+template <class Visit>
+void for_each_momentum(const Job& run, const Visit& visit)
 {
-    Real sum = 0;
     support::for_each_free_node(run.state.levels, [&](const grid::NodeAddress& at, const Vec3& x) {
         const auto leaf = static_cast<std::size_t>(at.leaf);
         const grid::NodeForce& force = run.state.levels.forces(leaf)[at.node];
         const auto& v = run.state.levels.motions(leaf)[at.node].velocity;
-        if (force.per_mass > 0) sum += force.mass() * (x[0] * v[1] - x[1] * v[0]);
+        if (force.per_mass > 0) visit(x, Vec3(v[0], v[1], v[2]) / force.per_mass);
     });
+}
+
+/// Angular momentum of the nodes about the z axis through the origin; nodal scheme.
+Real moment_of(const Job& run)
+{
+    Real sum = 0;
+    for_each_momentum(run,
+                      [&](const Vec3& x, const Vec3& momentum) { sum += x[0] * momentum[1] - x[1] * momentum[0]; });
     return sum;
 }
 
@@ -67,14 +75,8 @@ Real moment_of(const Job& run)
 Vec3 momentum_of(const Job& run)
 {
     if (!solver::nodal(run.problem)) return solver::momentum(run.state.particles);
-    const grid::Levels& levels = run.state.levels;
     Vec3 sum = Vec3::Zero();
-    for (std::size_t n = 0; n < levels.leaves.size(); ++n)
-        grid::for_owned_nodes([&](int node) {
-            const Real per_mass = levels.forces(n)[node].per_mass;
-            const auto& v = levels.motions(n)[node].velocity;
-            if (per_mass > 0) sum += Vec3(v[0], v[1], v[2]) / per_mass;
-        });
+    for_each_momentum(run, [&](const Vec3&, const Vec3& momentum) { sum += momentum; });
     return sum;
 }
 
