@@ -1,7 +1,9 @@
 /// `cleave info`: versions, build, machine.
 #include "app/commands.h"
-#include "app/instruction_set.h"
+#include "app/commit.h"
+#include "app/compiler_name.h"
 #include "io/library_versions.h"
+#include "transfer/kernel_level.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,9 +16,10 @@ namespace
 {
 int print_info()
 {
-    fmt::print("cleave     {} ({})\n", CLEAVE_VERSION, CLEAVE_BUILD_TYPE);
+    fmt::print("cleave     {}, {}\n", version_text(), CLEAVE_BUILD_TYPE);
     fmt::print("compiler   {}\n", compiler_name());
-    fmt::print("machine    {}, {} threads\n", instruction_set(), std::thread::hardware_concurrency());
+    fmt::print("machine    kernels for {}, {} threads\n", transfer::kernel_level(),
+               std::thread::hardware_concurrency());
     fmt::print("libraries  {}\n", io::library_versions());
     fmt::print("units      mm, g, ms; so N, MPa, mJ\n");
     return 0;

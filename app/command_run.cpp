@@ -1,7 +1,8 @@
 /// `cleave run`: read a case, advance it to its end, write the result directory.
 #include "app/commands.h"
+#include "app/commit.h"
+#include "app/compiler_name.h"
 #include "app/exit_code.h"
-#include "app/instruction_set.h"
 #include "app/log.h"
 #include "app/measure_table.h"
 #include "app/progress.h"
@@ -17,6 +18,7 @@
 #include "io/process_memory.h"
 #include "io/vdb_file.h"
 #include "solver/observe.h"
+#include "transfer/kernel_level.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -148,8 +150,9 @@ int run_case(const RunOptions& options)
     const int threads = options.threads > 0 ? options.threads : hardware;
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     files.record.threads = threads;
+    files.record.commit = commit();
     files.record.compiler = compiler_name();
-    files.record.instruction_set = instruction_set();
+    files.record.instruction_set = transfer::kernel_level();
     catch_stop_signals();
 
     const auto start = std::chrono::steady_clock::now();
@@ -158,7 +161,7 @@ int run_case(const RunOptions& options)
         begin(options, log, run, files);
         write_events(run.problem, run.state, files);
         io::return_free_memory();
-        log.line(fmt::format("cleave {}: {}\n{} particles, {} thread{}, results in {}", CLEAVE_VERSION,
+        log.line(fmt::format("cleave {}: {}\n{} particles, {} thread{}, results in {}", version_text(),
                              read.problem.title, run.state.particles.size(), threads, threads == 1 ? "" : "s",
                              directory.string()));
         write_record(run.problem, run.state, 0, files);

@@ -1,5 +1,6 @@
 /// Entry point: reads the command line, runs one command, turns errors into exit codes (docs: design, section 1).
 #include "app/commands.h"
+#include "app/commit.h"
 #include "app/exit_code.h"
 #include "io/diagnostics.h"
 
@@ -36,7 +37,7 @@ int main(int argc, char** argv)
 #endif
     CLI::App program{"Cleave: material point method for ductile crack evolution", "cleave"};
     program.require_subcommand(1);
-    program.set_version_flag("--version", "cleave " CLEAVE_VERSION);
+    program.set_version_flag("--version", "cleave " + app::version_text());
     app::Command chosen;
     app::add_run(program, chosen);
     app::add_check(program, chosen);

@@ -1,4 +1,6 @@
 #include "io/case_draft.h"
+#include "refine/coverage.h"
+#include "solver/begin_motion.h"
 #include "solver/external_force.h"
 
 #include <fmt/format.h>
@@ -54,6 +56,41 @@ void check_particles_per_cell(Draft& draft)
                                   "8 is the usual choice");
 }
 
+/// What is asked of the mesh to come.
+/// @pre  the number of particles per cell is a cube
+refine::Scene scene_of(const solver::Problem& problem)
+{
+    refine::Scene scene{{problem.grid.cell, problem.grid.origin, problem.grid.levels}, problem.zones, {}};
+    for (const solver::Body& body : problem.bodies) scene.bodies.push_back(body.shape);
+    scene.edge = problem.grid.edge;
+    scene.per_axis = static_cast<int>(std::lround(std::cbrt(problem.grid.particles_per_cell)));
+    return scene;
+}
+
+/// @return whether all have particles
+bool check_bodies(Draft& draft, const refine::Scene& scene)
+{
+    bool all = true;
+    const std::vector<solver::Body>& bodies = draft.problem.bodies;
+    const Real cell = draft.problem.grid.cell;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (!refine::holds_particle(scene, bodies[i].shape)) {
+            draft.diagnostics.error(draft.bodies[i].place, fmt::format("body '{}' gets no particle", bodies[i].name),
+                                    fmt::format("thinner than a cell of {} mm, or an empty shape", cell));
+            all = false;
+        }
+        const Real depth = cell / static_cast<Real>(1 << draft.problem.grid.levels); // half the finest cell
+        for (std::size_t j = 0; j < i; ++j) {
+            const geometry::Shape both = geometry::intersect({bodies[i].shape, bodies[j].shape});
+            if (any_sample(draft, both.bounds(), depth, [&](const Vec3& p) { return both.distance(p) < -depth / 2; }))
+                draft.diagnostics.error(draft.bodies[i].place,
+                                        fmt::format("body '{}' overlaps body '{}'", bodies[i].name, bodies[j].name),
+                                        "both would have mass there");
+        }
+    }
+    return all;
+}
+
 /// Highest level the zones ask for at a point.
 int level_at(const Draft& draft, const Vec3& point)
 {
@@ -63,7 +100,7 @@ int level_at(const Draft& draft, const Vec3& point)
     return level;
 }
 
-void check_zones(Draft& draft)
+void check_zones(Draft& draft, const refine::Scene& scene)
 {
     const solver::Problem& problem = draft.problem;
     for (std::size_t i = 0; i < problem.zones.size(); ++i) {
@@ -78,6 +115,12 @@ void check_zones(Draft& draft)
                                     "refines nothing");
             continue;
         }
+        if (!refine::refines(scene, zone))
+            draft.diagnostics.warning(draft.zones[i].place,
+                                      fmt::format("zone '{}' refines nothing: it holds neither the centre nor a corner "
+                                                  "of a cell of {} mm",
+                                                  zone.name, problem.grid.cell),
+                                      "widen it, or give it a margin");
         // Two levels up, the automatic 2:1 grading inserts cells nobody asked for.
         if (zone.level < 2) continue;
         const Real ring = 2 * spacing;
@@ -132,9 +175,12 @@ Real slowest_wave(const solver::Problem& problem)
     return speed;
 }
 
-void check_loads(Draft& draft, bool materials_sound)
+void check_loads(Draft& draft, const refine::Scene& scene, bool materials_sound)
 {
     const solver::Problem& problem = draft.problem;
+    // Cells of the updated formulation follow particles to where a motion has put them at the beginning.
+    const bool at_rest =
+        !solver::begins_with_motion(problem) || problem.numerics.formulation == solver::Formulation::total;
     for (std::size_t i = 0; i < problem.loads.size(); ++i) {
         const solver::Load& load = problem.loads[i];
         if (!draft.loads[i].sound) continue;
@@ -145,6 +191,10 @@ void check_loads(Draft& draft, bool materials_sound)
                         [&](const Vec3& p) { return reach.contains(p) && in_a_body(draft, p); }))
             draft.diagnostics.error(draft.loads[i].place, fmt::format("load '{}' touches no body", load.name),
                                     pin ? "the pin has no wall within one cell" : "no material in its region");
+        else if (at_rest && !refine::holds_node(scene, load.region))
+            draft.diagnostics.error(
+                draft.loads[i].place, fmt::format("load '{}' holds no node with mass", load.name),
+                fmt::format("its region lies between nodes; cells of level 0 are {} mm wide", problem.grid.cell));
         if (pin && in_a_body(draft, load.centre))
             draft.diagnostics.error(draft.loads[i].place,
                                     fmt::format("the centre of pin '{}' lies in a body, not in a hole", load.name));
@@ -250,8 +300,10 @@ void check_case(Draft& draft)
     check_symmetry(draft);
     // Whether something lies in a body can only be told when every body is known, and what was cut out of it.
     if (draft.problem.bodies.empty() || !all_sound(draft.bodies) || !all_sound(draft.features)) return;
-    check_zones(draft);
-    check_loads(draft, all_sound(draft.materials) && !draft.materials.empty());
+    const refine::Scene scene = scene_of(draft.problem);
+    if (!check_bodies(draft, scene)) return;
+    check_zones(draft, scene);
+    check_loads(draft, scene, all_sound(draft.materials) && !draft.materials.empty());
     check_surface_loads(draft);
     check_subcycling(draft);
     check_gauge(draft);

@@ -93,6 +93,7 @@ Json to_json(const RunRecord& record)
     const Real speed = record.wall_s > 0 ? static_cast<Real>(record.particle_steps) / record.wall_s : 0;
     return {{"title", record.title},
             {"version", record.version},
+            {"commit", record.commit},
             {"status", record.status},
             {"exit_reason", record.exit_reason},
             {"compiler", record.compiler},
@@ -127,6 +128,7 @@ RunRecord read_run_record(const std::filesystem::path& path)
         RunRecord record;
         json.at("title").get_to(record.title);
         json.at("version").get_to(record.version);
+        record.commit = json.value("commit", ""); // none in records of earlier versions
         json.at("status").get_to(record.status);
         json.at("exit_reason").get_to(record.exit_reason);
         json.at("compiler").get_to(record.compiler);

@@ -32,6 +32,7 @@ struct RunRecord
 {
     std::string title;
     std::string version;
+    std::string commit;             // the program was built from; empty: not known
     std::string status = "running"; // running, done, stopped (with a checkpoint), failed
     std::string exit_reason;        // why it ended; empty while running
     std::string compiler;           // such as "g++ 12.2.0"

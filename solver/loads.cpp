@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace solver
 {
@@ -70,6 +72,12 @@ Real mass_at(const grid::Levels& levels, const NodeAddress& at)
     return levels.sum.empty() ? levels.forces(leaf)[at.node].mass() : levels.sums(leaf)[at.node].mass;
 }
 
+/// Share of a node's mapped velocity that its particles carry on; the rest is what FLIP prescribed before.
+Real mapped_share(const Prepared& prepared)
+{
+    return prepared.options.transfer == Transfer::flip ? prepared.options.pic_fraction : Real(1);
+}
+
 /// Velocity a held node would have now without its load and without damping. Nodal scheme: as the forces have left it,
 /// `before` its prescribed one. Else what the transfer carries on, plus dt (f / m + g): FLIP carries the prescribed
 /// velocity `before`, PIC and APIC the mapped one.
@@ -85,7 +93,7 @@ Vec3 free_velocity(const Problem& problem, const Prepared& prepared, const grid:
         return (1 + half) * now - (1 - half) * before +
                before; // undoes v+ = ((1 - half) v + dt (f / m + g)) / (1 + half)
     }
-    const Real mapped = prepared.options.transfer == Transfer::apic ? Real(1) : prepared.options.pic_fraction;
+    const Real mapped = mapped_share(prepared);
     const grid::NodeSum& sum = levels.sums(leaf)[at.node];
     const Vec3 momentum(sum.momentum[0], sum.momentum[1], sum.momentum[2]);
     const Vec3 force(sum.force[0], sum.force[1], sum.force[2]);
@@ -129,6 +137,26 @@ Real ramp_value(const Ramp& ramp, Real time)
     return s * s * s * (10 - 15 * s + 6 * s * s);
 }
 
+namespace
+{
+/// Fill LoadNodes::before.
+void find_shared_nodes(const Problem& problem, std::vector<LoadNodes>& nodes)
+{
+    std::map<std::pair<std::int32_t, int>, std::uint8_t> held;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        std::uint8_t components = 0;
+        for (int a = 0; a < 3; ++a)
+            if (holds(problem.loads[i], a)) components = static_cast<std::uint8_t>(components | 1 << a);
+        nodes[i].before.clear();
+        for (const NodeAddress& at : nodes[i].node) {
+            std::uint8_t& all = held[{at.leaf, at.node}];
+            nodes[i].before.push_back(all);
+            all = static_cast<std::uint8_t>(all | components);
+        }
+    }
+}
+} // namespace
+
 void keep_heavy_nodes(const grid::Levels& levels, std::vector<LoadNodes>& nodes)
 {
     for (LoadNodes& held : nodes) {
@@ -138,6 +166,7 @@ void keep_heavy_nodes(const grid::Levels& levels, std::vector<LoadNodes>& nodes)
             if (!(mass_at(levels, held.node[n]) > 0)) continue;
             heavy.node.push_back(held.node[n]);
             heavy.position.push_back(held.position[n]);
+            heavy.before.push_back(held.before[n]);
         }
         held = std::move(heavy);
     }
@@ -168,6 +197,7 @@ void find_load_nodes(const Problem& problem, const grid::Levels& levels, const s
             }
         }
     }
+    find_shared_nodes(problem, nodes);
 }
 
 bool load_nodes_outdated(const Problem& problem, const std::vector<LoadState>& loads,
@@ -191,6 +221,7 @@ void apply_loads(const Problem& problem, const Prepared& prepared, const std::ve
         if (load.kind == Load::Kind::pin)
             state.spin = new_spin(problem, prepared, load, state, nodes[i], time, dt, levels);
         const Turn turn(problem, load, state);
+        const Real mapped = mapped_share(prepared);
         Vec3 impulse = Vec3::Zero();
         Real held_mass = 0;
         for (std::size_t n = 0; n < nodes[i].node.size(); ++n) {
@@ -210,12 +241,16 @@ void apply_loads(const Problem& problem, const Prepared& prepared, const std::ve
             for (int a = 0; a < 3; ++a) {
                 if (!holds(load, a)) continue;
                 const auto axis = static_cast<std::size_t>(a);
+                // An earlier load has left velocity and change: what this one gives is the difference.
+                const bool again = (nodes[i].before[n] >> a & 1) != 0;
+                impulse[a] += again ? mass * (mapped * (fresh[a] - motion.velocity[axis]) +
+                                              (1 - mapped) * (fresh[a] - old[a] - motion.change[axis]))
+                                    : given[a];
                 if (prepared.options.transfer == Transfer::nodal)
                     motion.change[axis] += dt * (fresh[a] - motion.velocity[axis]); // the displacement
                 else
                     motion.change[axis] = fresh[a] - old[a];
                 motion.velocity[axis] = fresh[a];
-                impulse[a] += given[a];
             }
         }
         if (held_mass <= 0)

@@ -2,7 +2,8 @@
 ///
 /// Reaction = momentum the load gives the body per time: m (v_prescribed - v_old) / dt - f summed over its nodes, where
 /// v_old is what the transfer carries on (FLIP: the prescribed velocity before; PIC and APIC: the mapped one), so the
-/// sum of reactions is exactly the change of the particles' momentum.
+/// sum of reactions is exactly the change of the particles' momentum. Where several loads hold the same component of a
+/// node the last one in the case prescribes it; each gives what its velocity differs by from that of those before it.
 #pragma once
 
 #include "grid/levels.h"
@@ -17,8 +18,9 @@ namespace solver
 struct LoadNodes
 {
     std::vector<grid::NodeAddress> node;
-    std::vector<Vec3> position; // mm
-    Vec3 shift = Vec3::Zero();  // mm, quantised displacement the nodes were found for
+    std::vector<Vec3> position;       // mm
+    std::vector<std::uint8_t> before; // bit a: an earlier load of the case holds component a of the node
+    Vec3 shift = Vec3::Zero();        // mm, quantised displacement the nodes were found for
 };
 
 /// Share of the finest spacing by which a region may move before its nodes are looked up again.

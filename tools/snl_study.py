@@ -12,6 +12,7 @@ import argparse
 import csv
 import dataclasses
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -42,6 +43,7 @@ class Variant:
     case: str  # below cases
     change: str
     overrides: list = dataclasses.field(default_factory=list)
+    kernels: str = ""  # "avx2": those, though the processor has AVX-512
 
 
 def mode(name):
@@ -75,7 +77,7 @@ CHANGES = {  # what is done to a preview with either model
     "slow": ("pins part at 2.5 m/s", speed(1.25, 3.2)),
     "fast": ("pins part at 10 m/s", speed(5, 0.9)),
 }
-OBJECTIVE_CHANGES = ["shifted-x", "shifted-y", "bridged", "C", "D-0.10", "D", "counted", "slow", "fast"]
+OBJECTIVE_CHANGES = ["shifted-x", "shifted-y", "bridged", "C", "D-0.10", "D", "counted", "fast"]
 
 
 def changed(names, group, case, prefix="", text="", overrides=()):
@@ -99,11 +101,12 @@ VARIANTS = {
                               ["body.0.shape.difference.from.box.lower=[0, -15.875, -1.575]", "symmetry=[]"]),
     "objective": Variant("objective", OBJECTIVE, "as shipped, 0.5 and 0.25 mm"),
     **changed(OBJECTIVE_CHANGES, "objective", OBJECTIVE, "objective-"),
+    "objective-avx2": Variant("objective", OBJECTIVE, "the same, kernels of AVX2", kernels="avx2"),
     "objective-long": Variant("objective", OBJECTIVE, "to COD 10 mm", ["end.cod=10", 'end.time="2.4 ms"']),
     "objective-memory-0.02": Variant("objective", OBJECTIVE, "memory of 0.02", [f"{DECOHESION}.lode_memory=0.02"]),
     "objective-memory-0.1": Variant("objective", OBJECTIVE, "memory of 0.1", [f"{DECOHESION}.lode_memory=0.1"]),
     "moment": Variant("moment", OBJECTIVE, "no memory", MOMENT),
-    **changed(OBJECTIVE_CHANGES, "moment", OBJECTIVE, "moment-", "no memory, ", MOMENT),
+    **changed(["shifted-x", "shifted-y"], "moment", OBJECTIVE, "moment-", "no memory, ", MOMENT),
     "slice": Variant("slice", "snl/slice.toml", "cells of 0.25 mm"),
     "slice-fine": Variant("slice", "snl/slice.toml", "cells of 0.125 mm", ["grid.cell=0.25"]),
     "fine-mixed": Variant("fine", FINE, "paper, mixed mode, three levels"),
@@ -113,6 +116,7 @@ VARIANTS = {
                                  mode("shear") + CHANGES["D-0.05"][1] + ["end.cod=3.5"]),
     "challenge": Variant("fine", "snl/challenge.toml", "paper, mixed mode, two levels as in the paper"),
     "objective-challenge": Variant("fine", FINE_OBJECTIVE, "objective, three levels"),
+    "objective-challenge-avx2": Variant("fine", FINE_OBJECTIVE, "objective, the same, kernels of AVX2", kernels="avx2"),
     "objective-challenge-x": Variant("fine", FINE_OBJECTIVE, "objective, lattice moved in x by 0.0625 mm",
                                      ["grid.origin=[0.0625, 0, 0]"]),
     "objective-challenge-y": Variant("fine", FINE_OBJECTIVE, "objective, lattice moved in y by 0.0625 mm",
@@ -143,8 +147,9 @@ def run(program, name, directory, threads):
     if threads:
         command += ["--threads", str(threads)]
     log = directory.parent / f"{directory.name}.log"
+    narrow = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX512F"} if variant.kernels == "avx2" else {}
     with open(log, "w") as output:
-        code = subprocess.run(command, stdout=output, stderr=subprocess.STDOUT).returncode
+        code = subprocess.run(command, stdout=output, stderr=subprocess.STDOUT, env=os.environ | narrow).returncode
     print(f"{name}: {'done' if code == 0 else f'ended with code {code}, see {log}'}", flush=True)
 
 
@@ -257,7 +262,8 @@ def row_of(name, directory):
             "crack_path": measures.get("crack_path") or "", "force_at_3mm_N": force_near(curve, 3),
             "force_at_6mm_N": force_near(curve, 6), "energy_residual": measures.get("energy_residual"),
             "particles": sum(record["particles"]["start"]), "steps": record["steps"],
-            "cpu_s": round(record["cpu_s"]) if "cpu_s" in record else None}
+            "cpu_s": round(record["cpu_s"]) if "cpu_s" in record else None,
+            "kernels": record["instruction_set"], "commit": record.get("commit") or ""}
 
 
 def table(rows):
@@ -331,7 +337,7 @@ def draw_stress(path, results, names):
 
 def read_value(key, text):
     """A field of docs/snl.csv: text, number or None."""
-    if key in ("group", "variant", "case", "change", "crack_path"):
+    if key in ("group", "variant", "case", "change", "crack_path", "kernels", "commit"):
         return text
     if not text:
         return None
@@ -366,6 +372,28 @@ def half_the_cells(rows, reference):
     return "\n".join(lines)
 
 
+SAME_METAL = {"objective-challenge": "as shipped", "objective-challenge-avx2": "kernels of AVX2",
+              "objective-challenge-x": "lattice moved in x", "objective-challenge-y": "lattice moved in y"}
+
+
+def spread(rows, reference):
+    """Runs of the objective model at 0.125 mm that differ by what should not matter, their mean and how far each goes from it."""
+    members = [rows[name] for name in SAME_METAL if name in rows]
+    values = np.array([[row[key] for key in MEASURES] for row in members], float)
+    mean = values.mean(axis=0)
+    digits = [2 if key.endswith("mm") else 0 for key in MEASURES]
+    measured = {**reference["experiment"], **{f"c{k}_mean_N": reference["experiment"][f"c{k}_force_N"] for k in EVENTS}}
+    shown = lambda title, cells: f"| {title} | " + " | ".join(cells) + " |"
+    lines = [shown("", ["maximum, N"] + [f"C{k}, {unit}" for k in EVENTS for unit in ("N", "mean N", "mm")]),
+             "|---" * (len(MEASURES) + 1) + "|"]
+    lines += [shown(SAME_METAL[row["variant"]], map(number, line, digits)) for row, line in zip(members, values)]
+    lines += [shown("mean", map(number, mean, digits)),
+              shown("farthest from it", [f"{100 * part:.0f} %" for part in np.abs(values / mean - 1).max(axis=0)]),
+              shown("experiment", [number(measured[key], count) for key, count in zip(MEASURES, digits)]),
+              shown("mean against it", [off(value, measured[key]).strip(" ()") for key, value in zip(MEASURES, mean)])]
+    return "\n".join(lines)
+
+
 def table_one(rows, reference):
     """Table 1 of the paper with the runs at its resolution beside it."""
     columns = [("experiment", reference["experiment"]), ("Yang et al.", reference["simulation"])]
@@ -385,13 +413,24 @@ def table_one(rows, reference):
     return "\n".join(lines)
 
 
+def programs(rows):
+    """Which program made which rows: runs with other vectors or of another commit differ by rounding at least."""
+    made = {}
+    for row in rows:
+        made.setdefault((row.get("commit") or "not recorded", row.get("kernels") or "not recorded"), []).append(row["variant"])
+    lines = ["| commit | kernels | rows |", "|---|---|---|"]
+    for (commit, kernels), names in sorted(made.items(), key=lambda item: -len(item[1])):
+        lines.append(f"| {commit} | {kernels} | {len(names)}: {', '.join(names)} |")
+    return "\n".join(lines)
+
+
 def draw_all(images, results, reference):
     """Every picture all of whose runs are at hand; the others stay as they are."""
     modes = ["opening", "shear", "mixed"]
     if all("fine-" + name in results for name in modes):
         modes = ["fine-" + name for name in modes]
-    objective = ["objective-challenge", "objective", "moment", "moment-bridged"]
-    paths = ["objective-challenge", "objective", "moment-shifted-y", "moment-D"]
+    objective = ["objective-challenge", "objective", "objective-bridged", "moment"]
+    paths = ["objective-challenge", "objective", "objective-D", "objective-C"]
     of_memory = [model + lattice for model in ("objective", "moment") for lattice in ("", "-shifted-x", "-shifted-y")]
     of_lattice = ["objective-challenge", "objective-challenge-x", "objective-challenge-y"]
     curves = lambda *of: draw_curves(*of, reference)
@@ -414,6 +453,8 @@ def write_page(results, reference):
     draw_all(ROOT / "docs/img", results, reference)
     page = ROOT / "docs/snl.md"
     text = replaced(page.read_text(), "table 1", table_one(by_name, reference))
+    text = replaced(text, "programs", programs(rows))
+    text = replaced(text, "spread", spread(by_name, reference))
     halved = half_the_cells(by_name, reference)
     if halved:
         text = replaced(text, "half the cells", halved)

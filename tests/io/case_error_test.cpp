@@ -120,6 +120,26 @@ TEST_F(CaseError, zone_inside_a_hole)
                          "zone 'between' lies outside every body"));
 }
 
+// What a run would refuse, or silently leave out, is told with its place in the file.
+TEST_F(CaseError, bodies_loads_and_zones_that_the_mesh_does_not_see)
+{
+    EXPECT_TRUE(contains(complaint(with(valid_case, "lower = [-1, -1, -1], upper = [11, 1, 3]",
+                                        "lower = [-1, 0.2, -1], upper = [11, 0.8, 3]")),
+                         "case.toml:36:10: error: load 'base' holds no node with mass\n"));
+    EXPECT_TRUE(contains(complaint(with(valid_case, "upper = [10, 10, 2]", "upper = [10, 10, 0.005]")),
+                         "case.toml:23:9: error: body 'plate' gets no particle\n"));
+    const std::string twice = std::string(valid_case) +
+                              "[[body]]\nname = \"patch\"\nmaterial = \"steel\"\n"
+                              "shape = { box = { lower = [0, 9, 0], upper = [10, 11, 2] } }\n";
+    EXPECT_TRUE(contains(complaint(twice), "case.toml:55:9: error: body 'patch' overlaps body 'plate'\n"));
+    EXPECT_EQ(complaint(with(twice, "[0, 9, 0]", "[0, 10, 0]")), "");
+    const io::Case read =
+        io::read_case_with_warnings(write(with(valid_case, "{ polyline = [\"A\", \"B\"], radius = 1.5 }",
+                                               "{ box = { lower = [5.1, 5.1, 0.1], upper = [5.4, 5.4, 0.4] } }")));
+    ASSERT_EQ(read.warnings.size(), 1U);
+    EXPECT_TRUE(contains(read.warnings.front(), "warning: zone 'between' refines nothing"));
+}
+
 TEST_F(CaseError, zone_level_beyond_the_finest)
 {
     EXPECT_TRUE(contains(complaint(with(valid_case, "level = 1", "level = 2")),

@@ -18,6 +18,7 @@ io::RunRecord record()
     io::RunRecord record;
     record.title = "SFC1, \"mixed\" mode";
     record.version = "0.1.0";
+    record.commit = "b149e1b2af";
     record.status = "done";
     record.exit_reason = "end.cod reached";
     record.compiler = "g++ 12.2.0";
@@ -45,6 +46,8 @@ TEST(RunRecord, HasTheKeysOfTheContract)
     io::write_run_record(folder.path() / "run.json", record());
     const auto json = nlohmann::json::parse(io::read_file(folder.path() / "run.json"));
     EXPECT_EQ(json.at("version"), "0.1.0");
+    EXPECT_EQ(json.at("commit"), "b149e1b2af");
+    EXPECT_EQ(io::read_run_record(folder.path() / "run.json").commit, "b149e1b2af");
     EXPECT_EQ(json.at("threads"), 2);
     EXPECT_EQ(json.at("wall_s"), 12.5);
     EXPECT_EQ(json.at("cpu_s"), 24.5);

@@ -137,6 +137,26 @@ TEST(Loads, reactions_are_the_momentum_that_regions_give_the_body)
     });
 }
 
+// Three loads hold nodes of one end: the last one moves them, and nobody's force counts twice.
+TEST(Loads, reactions_are_the_momentum_where_loads_share_nodes)
+{
+    solver::Problem bar = support::bar(support::metal(), 5, 0.01);
+    for (const Real share : {0.5, 1.5}) {
+        solver::Load other = bar.loads[1];
+        other.name += other.name;
+        for (std::optional<Real>& component : other.velocity)
+            if (component) *component *= share;
+        bar.loads.push_back(other);
+    }
+    for_each_scheme(bar, [](const solver::Problem& problem, Real tolerance) {
+        Job run = support::started(problem);
+        support::advance(60, run);
+        const Vec3 momentum = momentum_of(run);
+        EXPECT_GT(momentum.norm(), 0.01 * mass_of(run));
+        EXPECT_LT((momentum - sum_of_impulses(run)).norm(), tolerance * mass_of(run));
+    });
+}
+
 TEST(Loads, reactions_are_the_momentum_that_pins_give_the_body)
 {
     solver::Problem plate = support::plate(support::metal(), 5, 0.01);
