@@ -9,33 +9,6 @@ namespace refine
 {
 namespace
 {
-geometry::Bounds bounds_of(const std::vector<geometry::Shape>& bodies)
-{
-    geometry::Bounds all = bodies.front().bounds();
-    for (const geometry::Shape& body : bodies) {
-        all.lower = all.lower.cwiseMin(body.bounds().lower);
-        all.upper = all.upper.cwiseMax(body.bounds().upper);
-    }
-    return all;
-}
-
-geometry::Bounds grown(geometry::Bounds bounds, Real by)
-{
-    bounds.lower.array() -= by;
-    bounds.upper.array() += by;
-    return bounds;
-}
-
-geometry::Bounds common(const geometry::Bounds& a, const geometry::Bounds& b)
-{
-    return {a.lower.cwiseMax(b.lower), a.upper.cwiseMin(b.upper)};
-}
-
-bool empty(const geometry::Bounds& bounds)
-{
-    return (bounds.lower.array() > bounds.upper.array()).any();
-}
-
 /// `visit(cell)` for the cells of level 0 in the bounds until it returns true.
 /// @return whether it did
 template <class Visit>
@@ -107,11 +80,11 @@ bool holds_particle(const Scene& scene, const geometry::Shape& body)
 bool holds_node(const Scene& scene, const geometry::Shape& region)
 {
     const Lattice& lattice = scene.lattice;
-    const geometry::Bounds near = common(region.bounds(), grown(bounds_of(scene.bodies), lattice.spacing0));
-    if (empty(near)) return false;
+    const geometry::Shape bodies = geometry::unite(scene.bodies);
+    const geometry::Bounds near = geometry::intersect({region, geometry::grown(bodies, lattice.spacing0)}).bounds();
     // Balancing refines a coarse cell more for every level.
-    const grid::Refinement refinement =
-        refinement_of(scene.zones, lattice, grown(near, lattice.spacing0 * (1 + lattice.levels)));
+    const Vec3 rim = Vec3::Constant(lattice.spacing0 * (1 + lattice.levels));
+    const grid::Refinement refinement = refinement_of(scene.zones, lattice, {near.lower - rim, near.upper + rim});
     for (int level = 0; level < lattice.levels; ++level) {
         const Real spacing = lattice.spacing0 / static_cast<Real>(1 << level);
         const Real tolerance = 1e-9 * spacing; // as solver::find_load_nodes
@@ -124,10 +97,7 @@ bool holds_node(const Scene& scene, const geometry::Shape& region)
                 for (int k = lower[2]; k <= upper[2]; ++k) {
                     const Vec3 at = lattice.origin + spacing * Vec3(i, j, k);
                     if (region.distance(at) > tolerance) continue;
-                    if (std::none_of(scene.bodies.begin(), scene.bodies.end(), [&](const geometry::Shape& body) {
-                            return body.distance(at) <= 2 * half_diagonal(lattice.spacing0);
-                        }))
-                        continue;
+                    if (bodies.distance(at) > 2 * half_diagonal(lattice.spacing0)) continue;
                     if (can_be_held(scene, refinement, {level, Index3(i, j, k)})) return true;
                 }
     }
@@ -137,13 +107,11 @@ bool holds_node(const Scene& scene, const geometry::Shape& region)
 bool refines(const Scene& scene, const Zone& zone)
 {
     const Lattice& lattice = scene.lattice;
-    const geometry::Bounds near =
-        common(grown(zone.shape.bounds(), zone.margin + lattice.spacing0), bounds_of(scene.bodies));
-    return !empty(near) && any_cell(lattice, near, [&](const Index3& cell) {
+    const geometry::Shape bodies = geometry::unite(scene.bodies);
+    const geometry::Shape region = geometry::grown(zone.shape, zone.margin + lattice.spacing0);
+    return any_cell(lattice, geometry::intersect({region, bodies}).bounds(), [&](const Index3& cell) {
         const Vec3 lower = lattice.origin + lattice.spacing0 * cell.cast<Real>();
-        return wanted_level({zone}, lower, lattice.spacing0) > 0 &&
-               std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                           [&](const geometry::Shape& body) { return reaches(body, lower, lattice.spacing0); });
+        return wanted_level({zone}, lower, lattice.spacing0) > 0 && reaches(bodies, lower, lattice.spacing0);
     });
 }
 } // namespace refine
