@@ -3,6 +3,7 @@
 #include "io/particle_fields.h"
 #include "refine/populate.h"
 #include "refine/zone.h"
+#include "solver/lattice.h"
 #include "solver/stable_time_step.h"
 
 #include <algorithm>
@@ -17,11 +18,6 @@ namespace app
 namespace
 {
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
-
-refine::Lattice lattice_of(const solver::Problem& problem)
-{
-    return {problem.grid.cell, problem.grid.origin, problem.grid.levels};
-}
 
 using LeafKey = std::array<int, 4>; // level and leaf position
 
@@ -157,9 +153,9 @@ std::string grid_sections(const std::string& resolved)
 // Seed one slab of level-0 cells after the other, count, forget.
 ParticleCount count_particles(const solver::Problem& problem)
 {
-    const refine::Lattice lattice = lattice_of(problem);
+    const refine::Lattice lattice = solver::lattice_of(problem.grid);
     const grid::Refinement refinement = refine::refinement_of(problem.zones, lattice, problem.bounds());
-    const int per_axis = static_cast<int>(std::lround(std::cbrt(problem.grid.particles_per_cell)));
+    const int per_axis = solver::particles_per_axis(problem.grid);
     const Real thickness = 8 * problem.grid.cell;
     std::set<LeafKey> leaves;
     ParticleCount count;
@@ -220,7 +216,7 @@ std::string level_map(const solver::Problem& problem, int columns)
     int through = 0;
     size.minCoeff(&through);
     const int u = (through + 1) % 3, v = (through + 2) % 3;
-    const grid::Refinement refinement = refine::refinement_of(problem.zones, lattice_of(problem), bounds);
+    const grid::Refinement refinement = refine::refinement_of(problem.zones, solver::lattice_of(problem.grid), bounds);
     // One character per coarse cell if they fit; a character is about twice as tall as it is wide.
     const Real width = std::max(problem.grid.cell, size[u] / std::max(columns, 10));
     const Real height = 2 * width;

@@ -2,6 +2,7 @@
 #include "refine/coverage.h"
 #include "solver/begin_motion.h"
 #include "solver/external_force.h"
+#include "solver/lattice.h"
 
 #include <fmt/format.h>
 
@@ -44,7 +45,7 @@ bool any_sample(const Draft& draft, const geometry::Bounds& bounds, Real step, c
 void check_particles_per_cell(Draft& draft)
 {
     const int count = draft.problem.grid.particles_per_cell;
-    const int side = static_cast<int>(std::lround(std::cbrt(count)));
+    const int side = solver::particles_per_axis(draft.problem.grid);
     const Node* grid = draft.root.find("grid");
     const Node* value = grid->find("particles_per_cell");
     const Place& place = value ? value->place : grid->place;
@@ -60,10 +61,10 @@ void check_particles_per_cell(Draft& draft)
 /// @pre  the number of particles per cell is a cube
 refine::Scene scene_of(const solver::Problem& problem)
 {
-    refine::Scene scene{{problem.grid.cell, problem.grid.origin, problem.grid.levels}, problem.zones, {}};
+    refine::Scene scene{solver::lattice_of(problem.grid), problem.zones, {}};
     for (const solver::Body& body : problem.bodies) scene.bodies.push_back(body.shape);
     scene.edge = problem.grid.edge;
-    scene.per_axis = static_cast<int>(std::lround(std::cbrt(problem.grid.particles_per_cell)));
+    scene.per_axis = solver::particles_per_axis(problem.grid);
     return scene;
 }
 

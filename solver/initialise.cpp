@@ -7,6 +7,7 @@
 #include "solver/audit.h"
 #include "solver/begin_motion.h"
 #include "solver/follow.h"
+#include "solver/lattice.h"
 #include "solver/nodal.h"
 #include "solver/stable_time_step.h"
 #include "solver/step.h"
@@ -63,7 +64,7 @@ std::vector<std::uint32_t> particles_near(const particles::Particles& particles,
 /// Particles of all bodies; the cells of the zones are returned.
 grid::Refinement populate(const Problem& problem, const Prepared& prepared, State& state)
 {
-    const refine::Lattice lattice{problem.grid.cell, problem.grid.origin, problem.grid.levels};
+    const refine::Lattice lattice = lattice_of(problem.grid);
     if (problem.bodies.size() > 256 || problem.materials.size() > 256)
         throw core::InputError(fmt::format("{} bodies of {} materials are more than a particle can name (256 each)",
                                            problem.bodies.size(), problem.materials.size()));

@@ -1,6 +1,7 @@
 #include "solver/prepared.h"
 
 #include "core/error.h"
+#include "solver/lattice.h"
 
 #include <fmt/format.h>
 
@@ -45,7 +46,7 @@ Prepared prepare(const Problem& problem)
         const Real spacing = problem.grid.cell / static_cast<Real>(1 << l);
         prepared.mass_cutoff.push_back(problem.numerics.mass_cutoff * density * spacing * spacing * spacing);
     }
-    prepared.per_axis = static_cast<int>(std::lround(std::cbrt(problem.grid.particles_per_cell)));
+    prepared.per_axis = particles_per_axis(problem.grid);
     if (prepared.per_axis * prepared.per_axis * prepared.per_axis != problem.grid.particles_per_cell)
         throw core::InputError(
             fmt::format("grid.particles_per_cell = {} is not a cube number", problem.grid.particles_per_cell));

@@ -99,6 +99,16 @@ void for_each_scheme(solver::Problem problem, const Check& check)
     problem.numerics = support::nodal_numerics(solver::Precision::mixed);
     check(problem, 1e-6);
 }
+
+/// The body moves, and all of its momentum comes from the loads.
+void expect_momentum_from_loads(const solver::Problem& problem, Real tolerance)
+{
+    Job run = support::started(problem);
+    support::advance(60, run);
+    const Vec3 momentum = momentum_of(run);
+    EXPECT_GT(momentum.norm(), 0.01 * mass_of(run));
+    EXPECT_LT((momentum - sum_of_impulses(run)).norm(), tolerance * mass_of(run));
+}
 } // namespace
 
 TEST(Ramp, smooth_step_starts_and_ends_without_slope_or_curvature)
@@ -128,13 +138,7 @@ TEST(Ramp, linear_and_step)
 
 TEST(Loads, reactions_are_the_momentum_that_regions_give_the_body)
 {
-    for_each_scheme(support::bar(support::metal(), 5, 0.01), [](const solver::Problem& problem, Real tolerance) {
-        Job run = support::started(problem);
-        support::advance(60, run);
-        const Vec3 momentum = momentum_of(run);
-        EXPECT_GT(momentum.norm(), 0.01 * mass_of(run));
-        EXPECT_LT((momentum - sum_of_impulses(run)).norm(), tolerance * mass_of(run));
-    });
+    for_each_scheme(support::bar(support::metal(), 5, 0.01), expect_momentum_from_loads);
 }
 
 // Three loads hold nodes of one end: the last one moves them, and nobody's force counts twice.
@@ -148,26 +152,14 @@ TEST(Loads, reactions_are_the_momentum_where_loads_share_nodes)
             if (component) *component *= share;
         bar.loads.push_back(other);
     }
-    for_each_scheme(bar, [](const solver::Problem& problem, Real tolerance) {
-        Job run = support::started(problem);
-        support::advance(60, run);
-        const Vec3 momentum = momentum_of(run);
-        EXPECT_GT(momentum.norm(), 0.01 * mass_of(run));
-        EXPECT_LT((momentum - sum_of_impulses(run)).norm(), tolerance * mass_of(run));
-    });
+    for_each_scheme(bar, expect_momentum_from_loads);
 }
 
 TEST(Loads, reactions_are_the_momentum_that_pins_give_the_body)
 {
     solver::Problem plate = support::plate(support::metal(), 5, 0.01);
     plate.loads[1].velocity = {1.0, 2.0, {}};
-    for_each_scheme(plate, [](const solver::Problem& problem, Real tolerance) {
-        Job run = support::started(problem);
-        support::advance(60, run);
-        const Vec3 momentum = momentum_of(run);
-        EXPECT_GT(momentum.norm(), 0.01 * mass_of(run));
-        EXPECT_LT((momentum - sum_of_impulses(run)).norm(), tolerance * mass_of(run));
-    });
+    for_each_scheme(plate, expect_momentum_from_loads);
 }
 
 // Sub-cycled: a pin that holds nodes of two levels, some of them masters, and a region on the coarsest of three.
