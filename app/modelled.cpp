@@ -73,6 +73,11 @@ std::vector<std::string> modelled(const solver::Problem& problem, const solver::
     if (problem.numerics.subcycling)
         text.push_back(
             fmt::format("sub-cycling: a step of the coarsest level is {} of the finest", solver::substeps(problem)));
+    if (const solver::Numerics& n = problem.numerics; n.damping > 0)
+        text.push_back(fmt::format("damping of {} 1/ms, of {}", n.damping,
+                                   n.damps_fast_motion_only()
+                                       ? fmt::format("what is faster than a mean over {} ms", n.damping_memory)
+                                       : std::string("all motion")));
     for (const solver::SymmetryPlane& plane : problem.symmetry)
         text.push_back(fmt::format("half model: symmetry plane {} = {} mm", "xyz"[plane.axis], plane.at));
     text.push_back(problem.grid.edge == solver::EdgeTreatment::staircase

@@ -59,6 +59,13 @@ struct alignas(32) NodeForce
     Real mass() const { return per_mass > 0 ? 1 / per_mass : Real(0); }
 };
 
+/// Mean velocity of a node of the nodal scheme, where damping has a memory (grid/damping.h).
+struct alignas(32) NodeMean
+{
+    std::array<Real, 3> velocity; // mm/ms
+    Real spare;
+};
+
 /// Tile indices [lower, upper] per axis; empty if upper < lower.
 struct NodeBox
 {
@@ -149,6 +156,7 @@ struct Levels
     std::vector<NodeSum> sum;              // [leaf][729]
     std::vector<NodeMotion> motion;        // [leaf][729]
     std::vector<NodeForce> force;          // [leaf][729] nodal scheme, instead of `sum`
+    std::vector<NodeMean> mean;            // [leaf][729] nodal scheme, where damping has a memory
     std::vector<NodeBox> used;             // [leaf] holds all corners of active cells: no other node has mass
     std::vector<std::uint8_t> constrained; // [leaf][729] 1: owned node is a slave of the coarser level
     std::vector<LevelInterface> interface; // [count - 1] between level l and l + 1
@@ -165,6 +173,8 @@ struct Levels
     const NodeSum* sums(std::size_t leaf) const { return sum.data() + leaf * tile_nodes; }
     NodeForce* forces(std::size_t leaf) { return force.data() + leaf * tile_nodes; }
     const NodeForce* forces(std::size_t leaf) const { return force.data() + leaf * tile_nodes; }
+    NodeMean* means(std::size_t leaf) { return mean.data() + leaf * tile_nodes; }
+    const NodeMean* means(std::size_t leaf) const { return mean.data() + leaf * tile_nodes; }
     NodeMotion* motions(std::size_t leaf) { return motion.data() + leaf * tile_nodes; }
     const NodeMotion* motions(std::size_t leaf) const { return motion.data() + leaf * tile_nodes; }
 };

@@ -5,10 +5,9 @@
 
 namespace grid
 {
-void advance_momentum(const std::vector<WallPlane>& walls, const Vec3& gravity, Real damping,
-                      const std::vector<Real>& mass_cutoff, Real dt, Levels& levels)
+void advance_momentum(const std::vector<WallPlane>& walls, const Vec3& gravity, const std::vector<Real>& mass_cutoff,
+                      Real dt, Levels& levels)
 {
-    const Real half_step = damping * dt / 2;
     core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
         const Leaf& leaf = levels.leaves[n];
         const Real cutoff = mass_cutoff[static_cast<std::size_t>(leaf.level)];
@@ -22,7 +21,6 @@ void advance_momentum(const std::vector<WallPlane>& walls, const Vec3& gravity, 
             for (std::size_t a = 0; a < 3; ++a) {
                 const Real before = s.momentum[a] * per_mass;
                 m.change[a] = moves * (s.force[a] * per_mass + gravity[static_cast<int>(a)]);
-                if (damping > 0) m.change[a] = (m.change[a] - 2 * half_step * before) / (1 + half_step);
                 m.velocity[a] = before + m.change[a];
             }
         });

@@ -41,25 +41,14 @@ void add_lower_halos(std::size_t leaf, Levels& levels)
     });
 }
 
-/// What a step keeps of the velocity and takes of the impulse under damping a: v+ = kept v + reached dt (f / m + g).
-struct Damped
+/// What the forces of slaves change in their masters' motion. `whole`: the masters' forces have them too then.
+void push_masters(Real dt, bool whole, const LevelInterface& face, Levels& levels)
 {
-    Real kept = 1, reached = 1; // 1
-    Damped(Real damping, Real dt)
-        : kept((1 - damping * dt / 2) / (1 + damping * dt / 2)), reached(1 / (1 + damping * dt / 2))
-    {}
-};
-
-/// What the forces of slaves change in their masters' motion. With damping, which excludes sub-cycling, the masters'
-/// forces have them too then, for whoever asks what velocity they began with.
-void push_masters(Real damping, Real dt, const LevelInterface& face, Levels& levels)
-{
-    const Real reached_dt = Damped(damping, dt).reached * dt;
     core::parallel_for(face.master.size(), [&](std::size_t m) {
         const auto leaf = static_cast<std::size_t>(face.master[m].leaf);
         NodeMotion& motion = levels.motions(leaf)[face.master[m].node];
         NodeForce& master = levels.forces(leaf)[face.master[m].node];
-        const Real impulse = reached_dt * master.per_mass;
+        const Real impulse = dt * master.per_mass;
         for (std::int32_t e = face.column_start[m]; e < face.column_start[m + 1]; ++e) {
             const auto entry = static_cast<std::size_t>(e);
             const NodeAddress& at = face.slave[static_cast<std::size_t>(face.column_slave[entry])];
@@ -68,7 +57,7 @@ void push_masters(Real damping, Real dt, const LevelInterface& face, Levels& lev
                 const Real force = face.column_weight[entry] * slave.force[a];
                 motion.velocity[a] += impulse * force;
                 motion.change[a] += dt * impulse * force;
-                if (damping > 0) master.force[a] += force;
+                if (whole) master.force[a] += force;
             }
         }
     });
@@ -100,8 +89,7 @@ void restore_masses(const std::vector<Real>& mass_cutoff, Levels& levels)
     std::vector<NodeSum>().swap(levels.sum);
 }
 
-void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, Real damping, const LevelSteps& steps,
-                   Levels& levels)
+void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, const LevelSteps& steps, Levels& levels)
 {
     using Line = core::Pack<Real, 4>;
     const Line axes(Line::Lanes{1, 1, 1, 0});
@@ -109,9 +97,7 @@ void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, Rea
     core::parallel_for(levels.leaves.size() - first, [&](std::size_t task) {
         const std::size_t n = first + task;
         const Real dt = steps.of(levels.leaves[n].level);
-        const Damped damped(damping, dt);
-        const Real reached_dt = damped.reached * dt;
-        const Line falling(Line::Lanes{reached_dt * gravity[0], reached_dt * gravity[1], reached_dt * gravity[2], 0});
+        const Line falling(Line::Lanes{dt * gravity[0], dt * gravity[1], dt * gravity[2], 0});
         add_lower_halos(n, levels);
         const NodeForce* force = levels.forces(n);
         NodeMotion* motion = levels.motions(n);
@@ -120,18 +106,18 @@ void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, Rea
             __builtin_prefetch(motion + i + 2 * tile_side);
             __builtin_prefetch(force + i + 2 * tile_side);
             // Fourth lanes: the spare places, which nobody reads, and 1 / m.
-            const Real impulse = reached_dt * force[i].per_mass;
+            const Real impulse = dt * force[i].per_mass;
             const Line fall(impulse == 0 ? Line(Real(0)) : falling);
             const Line drift(impulse == 0 ? Real(0) : dt); // slaves keep where they were: prolong_displacement
-            const Line velocity = Line(damped.kept) * Line::load(motion[i].velocity.data()) +
-                                  Line(impulse) * Line::load(force[i].force.data()) * axes + fall;
+            const Line velocity =
+                Line::load(motion[i].velocity.data()) + Line(impulse) * Line::load(force[i].force.data()) * axes + fall;
             velocity.store(motion[i].velocity.data());
             (Line::load(motion[i].change.data()) + drift * velocity).store(motion[i].change.data());
         });
     });
     const int fine = std::max(1, steps.first); // finer side of the coarsest interface that is pushed
     for (int l = levels.count - 1; l >= fine; --l)
-        push_masters(damping, steps.of(l), levels.interface[static_cast<std::size_t>(l) - 1], levels);
+        push_masters(steps.of(l), !steps.doubled, levels.interface[static_cast<std::size_t>(l) - 1], levels);
     const std::size_t pushed = levels.first_leaf(fine - 1);
     core::parallel_for(levels.leaves.size() - pushed, [&](std::size_t task) {
         const std::size_t n = pushed + task;

@@ -16,12 +16,10 @@ void start_nodes(const std::vector<WallPlane>& walls, const std::vector<Real>& m
 /// @pre  sums as scattered, halos not assembled
 void restore_masses(const std::vector<Real>& mass_cutoff, Levels& levels);
 
-/// Assemble forces over leaves and levels, v+ = v + dt (f / m + g - a (v + v+) / 2), u += dt v+, walls applied; every
-/// level of `steps` by its own dt.
-/// @param damping  1/ms, a; 0 with steps that differ between levels
+/// Assemble forces over leaves and levels, v+ = v + dt (f / m + g), u += dt v+, walls applied; every level of `steps`
+/// by its own dt. Where these are equal, `force` of every owned node that moves is the whole f then.
 ///
 /// One walk over the tiles: a leaf adds the halo forces of its lower neighbours and moves its nodes at once; what
 /// slaves then give to their masters is a second, smaller push.
-void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, Real damping, const LevelSteps& steps,
-                   Levels& levels);
+void advance_nodes(const std::vector<WallPlane>& walls, const Vec3& gravity, const LevelSteps& steps, Levels& levels);
 } // namespace grid

@@ -55,6 +55,7 @@ void read_numerics(Draft& draft)
                                                                  : solver::StressUpdate::usl);
     numerics.pic_fraction = section.real("pic_fraction");
     numerics.damping = section.real("damping");
+    numerics.damping_memory = section.real("damping_memory");
     numerics.cfl = section.real("cfl");
     numerics.mass_cutoff = section.real("mass_cutoff");
     const bool lattice = numerics.formulation == solver::Formulation::total &&
@@ -75,6 +76,8 @@ void read_numerics(Draft& draft)
                                solver::subcycled_step_share));
     if (numerics.subcycling && numerics.damping > 0)
         section.error("damping", "damping is not built for steps that differ between levels (subcycling = true)");
+    if (numerics.damps_fast_motion_only() && numerics.transfer != solver::Transfer::nodal)
+        section.error("damping_memory", "damping_memory needs transfer = \"nodal\": the nodes keep the means");
     if (numerics.subcycling && draft.problem.grid.levels == 1)
         draft.diagnostics.warning(section.place("subcycling"), "subcycling = true changes nothing on one level");
     if (numerics.cfl >= 1) section.error("cfl", "cfl must be below 1: the explicit step is unstable beyond");

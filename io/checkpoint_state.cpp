@@ -231,7 +231,7 @@ std::vector<solver::Sample> load_samples(const Hdf5Reader& file)
     return samples;
 }
 
-/// Motion of all nodes and the force they begin the next step with; nodal scheme only.
+/// Motion of all nodes, the force they begin the next step with and their mean velocity; nodal scheme only.
 void store_nodes(const solver::State& state, Hdf5Writer& file)
 {
     if (!state.lattice.in_use()) return;
@@ -244,6 +244,11 @@ void store_nodes(const solver::State& state, Hdf5Writer& file)
         force.insert(force.end(), node.force.begin(), node.force.end());
     store("/levels/motion", motion, 6, file);
     store("/levels/force", force, 3, file);
+    if (state.levels.mean.empty()) return;
+    std::vector<Real> mean;
+    for (const grid::NodeMean& node : state.levels.mean)
+        mean.insert(mean.end(), node.velocity.begin(), node.velocity.end());
+    store("/levels/mean_velocity", mean, 3, file);
 }
 
 void load_nodes(const Hdf5Reader& file, solver::State& state)
@@ -261,6 +266,12 @@ void load_nodes(const Hdf5Reader& file, solver::State& state)
             state.levels.motion[n].change[a] = motion[6 * n + 3 + a];
             state.levels.force[n].force[a] = force[3 * n + a];
         }
+    if (!file.exists("/levels/mean_velocity")) return;
+    const auto mean = file.dataset<Real>("/levels/mean_velocity");
+    if (mean.size() != 3 * nodes) damaged(file, "the nodes do not fit the leaves");
+    state.levels.mean.assign(nodes, {});
+    for (std::size_t n = 0; n < nodes; ++n)
+        for (std::size_t a = 0; a < 3; ++a) state.levels.mean[n].velocity[a] = mean[3 * n + a];
 }
 } // namespace
 

@@ -66,45 +66,6 @@ void gather_forces(const Problem& problem, const State& state, Derived& derived)
             }
         });
 }
-
-/// Sum over leaves, formed in their order.
-template <class OfLeaf>
-Real sum_over_leaves(std::size_t leaves, const OfLeaf& of_leaf)
-{
-    std::vector<Real> part(leaves, 0);
-    core::parallel_for(leaves, [&](std::size_t n) { part[n] = of_leaf(n); });
-    Real sum = 0;
-    for (const Real value : part) sum += value;
-    return sum;
-}
-
-/// Mean velocity of a step at an owned node, and its mass; loads not yet applied.
-struct Damped
-{
-    Real mass = 0;
-    std::array<Real, 3> velocity{};
-};
-
-Damped damped_at(const Problem& problem, const State& state, std::size_t leaf, int node)
-{
-    const Real dt = state.clock.dt, half = problem.numerics.damping * dt / 2;
-    const grid::NodeMotion& motion = state.levels.motions(leaf)[node];
-    Damped damped;
-    damped.mass = nodal(problem) ? state.levels.forces(leaf)[node].mass() : state.levels.sums(leaf)[node].mass;
-    if (damped.mass <= 0) return damped;
-    for (std::size_t a = 0; a < 3; ++a) {
-        const Real after = motion.velocity[a];
-        if (!nodal(problem)) {
-            damped.velocity[a] = after - motion.change[a] / 2;
-        } else if (after != 0) { // a component that is exactly 0 is held by a wall
-            const Real pull =
-                state.levels.forces(leaf)[node].force[a] / damped.mass + problem.gravity[static_cast<int>(a)];
-            const Real before = ((1 + half) * after - dt * pull) / (1 - half);
-            damped.velocity[a] = (before + after) / 2;
-        }
-    }
-    return damped;
-}
 } // namespace
 
 bool has_external_forces(const Problem& problem)
@@ -134,7 +95,7 @@ void add_external_work(const Problem& problem, const Derived& derived, State& st
 {
     if (!has_external_forces(problem)) return;
     const bool twice = nodal(problem);
-    const Real power = sum_over_leaves(state.levels.leaves.size(), [&](std::size_t n) {
+    const Real power = core::parallel_sum(state.levels.leaves.size(), [&](std::size_t n) {
         Real sum = 0;
         if (!derived.pushed[n]) return sum;
         const Vec3* tile = derived.external.data() + n * grid::tile_nodes;
@@ -147,29 +108,6 @@ void add_external_work(const Problem& problem, const Derived& derived, State& st
         return sum;
     });
     state.source_work += state.clock.dt * power;
-}
-
-void add_damped_work(const Problem& problem, const Derived& derived, State& state)
-{
-    if (problem.numerics.damping == 0) return;
-    Real sum = sum_over_leaves(state.levels.leaves.size(), [&](std::size_t n) {
-        Real energy = 0;
-        grid::for_nodes(state.levels.used[n], grid::leaf_side - 1, [&](int node) {
-            const Damped damped = damped_at(problem, state, n, node);
-            for (const Real v : damped.velocity) energy += damped.mass * v * v;
-        });
-        return energy;
-    });
-    for (std::size_t i = 0; i < derived.load_nodes.size(); ++i) // held nodes are moved, not damped
-        for (const grid::NodeAddress& held : derived.load_nodes[i].node) {
-            const Damped damped = damped_at(problem, state, static_cast<std::size_t>(held.leaf), held.node);
-            for (int a = 0; a < 3; ++a)
-                if (holds(problem.loads[i], a)) {
-                    const Real v = damped.velocity[static_cast<std::size_t>(a)];
-                    sum -= damped.mass * v * v;
-                }
-        }
-    state.damped_work += problem.numerics.damping * state.clock.dt * sum;
 }
 
 Real surface_force(const Problem& problem, const Derived& derived, std::size_t load, int axis, Real time)

@@ -20,11 +20,6 @@ void add_external_forces(const Problem& problem, State& state, Derived& derived)
 /// @pre halos of the motion filled
 void add_external_work(const Problem& problem, const Derived& derived, State& state);
 
-/// Energy that numerics.damping takes in this step, to state.damped_work: sum m a |(v + v+) / 2|^2 dt over nodes no
-/// load holds.
-/// @pre momentum advanced, loads not yet applied
-void add_damped_work(const Problem& problem, const Derived& derived, State& state);
-
 /// Force of a surface load now, full specimen along `axis` [N].
 Real surface_force(const Problem& problem, const Derived& derived, std::size_t load, int axis, Real time);
 } // namespace solver

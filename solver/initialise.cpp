@@ -153,7 +153,7 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
     check_loads(problem, state.levels, derived);
     scatter();
     if (nodal(problem)) {
-        start_nodal(prepared, state);
+        start_nodal(problem, prepared, state);
         keep_heavy_nodes(state.levels, derived.load_nodes);
         find_fast_nodes(problem, state.levels, derived);
     }

@@ -78,20 +78,19 @@ Real mapped_share(const Prepared& prepared)
     return prepared.options.transfer == Transfer::flip ? prepared.options.pic_fraction : Real(1);
 }
 
-/// Velocity a held node would have now without its load and without damping. Nodal scheme: as the forces have left it,
-/// `before` its prescribed one. Else what the transfer carries on, plus dt (f / m + g): FLIP carries the prescribed
-/// velocity `before`, PIC and APIC the mapped one.
+/// Velocity a held node would have now without its load and without damping. Nodal scheme: as the forces have left it;
+/// with damping, `before`, its prescribed one, plus dt (f / m + g). Else what the transfer carries on, plus dt (f / m +
+/// g): FLIP carries the prescribed velocity `before`, PIC and APIC the mapped one.
 Vec3 free_velocity(const Problem& problem, const Prepared& prepared, const grid::Levels& levels, const NodeAddress& at,
                    const Vec3& before, Real dt)
 {
     const auto leaf = static_cast<std::size_t>(at.leaf);
     if (prepared.options.transfer == Transfer::nodal) {
         const grid::NodeMotion& motion = levels.motions(leaf)[at.node];
-        const Vec3 now(motion.velocity[0], motion.velocity[1], motion.velocity[2]);
-        const Real half = problem.numerics.damping * dt / 2;
-        if (half == 0) return now;
-        return (1 + half) * now - (1 - half) * before +
-               before; // undoes v+ = ((1 - half) v + dt (f / m + g)) / (1 + half)
+        if (problem.numerics.damping == 0) return {motion.velocity[0], motion.velocity[1], motion.velocity[2]};
+        const grid::NodeForce& node = levels.forces(leaf)[at.node];
+        const Vec3 force(node.force[0], node.force[1], node.force[2]);
+        return before + dt * (node.per_mass * force + problem.gravity);
     }
     const Real mapped = mapped_share(prepared);
     const grid::NodeSum& sum = levels.sums(leaf)[at.node];

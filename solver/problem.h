@@ -14,6 +14,7 @@
 #include "transfer/scheme.h"
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -58,11 +59,13 @@ struct Numerics
     StressUpdate stress_update = StressUpdate::usl;
     Transfer transfer = Transfer::flip;
     Precision precision = Precision::f64;
-    Real pic_fraction = 0;    // 1, share of PIC in the FLIP velocity update
-    Real damping = 0;         // 1/ms, a in v' = f / m - a v
-    Real cfl = 0.5;           // 1, dt = cfl * min h / c_d
+    Real pic_fraction = 0;                                       // 1, share of PIC in the FLIP velocity update
+    Real damping = 0;                                            // 1/ms, a in v' = f / m - a (v - u)
+    Real damping_memory = std::numeric_limits<Real>::infinity(); // ms, u is the mean of v over it; infinite: 0
+    Real cfl = 0.5;                                              // 1, dt = cfl * min h / c_d
     bool subcycling = false;  // nodal scheme: each level has twice the step of the next finer one
     Real mass_cutoff = 1e-10; // 1, nodes lighter than this share of a full cell's mass are inactive
+    bool damps_fast_motion_only() const { return damping > 0 && !std::isinf(damping_memory); }
 };
 
 /// Normal velocity zero on a coordinate plane that coincides with a node plane of every level.

@@ -33,7 +33,7 @@ struct LoadState
     Real external_work = 0;             // mJ, since time 0
 };
 
-/// Energies of the modelled part [mJ]; `damping` is what numerics.damping took. `residual` = external + initial - all
+/// Energies of the modelled part [mJ]; `damping` is what damping took. `residual` = external + initial - all
 /// the rest: what the scheme lost (> 0) or made.
 struct Ledger
 {
@@ -114,7 +114,7 @@ struct State
     LeafWork folded_work;                                // mJ, of leaves that no longer exist
     Real initial_energy = 0;                             // mJ
     Real source_work = 0;                                // mJ, of body forces and surface loads
-    Real damped_work = 0;                                // mJ, taken by numerics.damping
+    Real damped_work = 0;                                // mJ, taken by damping (solver/damping.h)
     std::vector<Sample> samples;                         // of the measures, every one so far
     std::vector<HistoryLine> history;                    // every line so far: measures need peaks and events
     std::vector<std::uint32_t> gauge_upper, gauge_lower; // particle ids whose mean displacement is the gauge

@@ -4,6 +4,7 @@
 #include "grid/interface.h"
 #include "grid/momentum.h"
 #include "grid/nodal.h"
+#include "solver/damping.h"
 #include "solver/external_force.h"
 #include "solver/follow.h"
 #include "solver/nodal.h"
@@ -40,9 +41,8 @@ void move_nodes(const Problem& problem, const Prepared& prepared, Derived& deriv
     add_external_forces(problem, state, derived);
     grid::assemble_sums(state.levels);
     grid::restrict_sums(state.levels);
-    grid::advance_momentum(prepared.walls, problem.gravity, problem.numerics.damping, prepared.mass_cutoff, dt,
-                           state.levels);
-    add_damped_work(problem, derived, state);
+    grid::advance_momentum(prepared.walls, problem.gravity, prepared.mass_cutoff, dt, state.levels);
+    damp_nodes(problem, derived, state);
     apply_loads(problem, prepared, derived.load_nodes, time, dt, state.levels, state.loads);
     grid::prolong_motion(state.levels);
     grid::fill_motion_halos(state.levels);
@@ -104,8 +104,8 @@ void step_nodal(const Problem& problem, const Prepared& prepared, State& state, 
 
     add_external_forces(problem, state, derived);
     add_external_work(problem, derived, state);
-    grid::advance_nodes(prepared.walls, problem.gravity, problem.numerics.damping, {state.clock.dt}, state.levels);
-    add_damped_work(problem, derived, state);
+    grid::advance_nodes(prepared.walls, problem.gravity, {state.clock.dt}, state.levels);
+    damp_nodes(problem, derived, state);
     apply_loads(problem, prepared, derived.load_nodes, state.clock.time, state.clock.dt, state.levels, state.loads);
     grid::prolong_motion(state.levels);
     grid::fill_motion_halos(state.levels);
@@ -126,7 +126,7 @@ void step_subcycled(const Problem& problem, const Prepared& prepared, State& sta
     transfer::PassOptions options = pass_options(prepared, state.clock);
     for (unsigned n = 0; n < count; ++n) {
         steps.first = n == 0 ? 0 : finest - std::countr_zero(n); // whose step begins
-        grid::advance_nodes(prepared.walls, problem.gravity, 0, steps, state.levels);
+        grid::advance_nodes(prepared.walls, problem.gravity, steps, state.levels);
         apply_loads(problem, prepared, derived.load_nodes, state.clock.time, steps.dt, state.levels, state.loads);
         grid::drift_fast_nodes(steps.dt, state.levels, derived.fast_nodes);
         state.clock.time += steps.dt;

@@ -43,6 +43,7 @@ void resume(const Problem& problem, const Prepared& prepared, State& state, Deri
 /// | grid::assemble_sums           | halo sums of neighbours             | sums of owned nodes              |
 /// | grid::restrict_sums           | sums of slaves                      | sums of masters                  |
 /// | grid::advance_momentum        | mass, momentum, force               | node velocity and its change     |
+/// | damp_nodes                    | node velocity and its change        | both (cases with damping)        |
 /// | apply_loads                   | sums of held nodes                  | their velocity; reactions        |
 /// | grid::prolong_motion          | velocity of masters                 | velocity of slaves               |
 /// | grid::fill_motion_halos       | velocity of owners                  | velocity of halos                |

@@ -8,7 +8,7 @@ TEST(Momentum, nodes_move_by_force_over_mass_and_gravity)
 {
     grid::Levels levels = support::levels_of(support::topologies()[1]);
     for (grid::NodeSum& sum : levels.sum) sum = {2, {1, -2, 3}, {10, 20, -30}, 0};
-    grid::advance_momentum({}, Vec3(0, 0, -9), 0, {0, 0}, 0.1, levels);
+    grid::advance_momentum({}, Vec3(0, 0, -9), {0, 0}, 0.1, levels);
     support::for_each_free_node(levels, [&](const grid::NodeAddress& at, const Vec3&) {
         const grid::NodeMotion& motion = levels.motions(static_cast<std::size_t>(at.leaf))[at.node];
         EXPECT_DOUBLE_EQ(motion.change[0], 0.5);
@@ -23,7 +23,7 @@ TEST(Momentum, nodes_lighter_than_the_cutoff_of_their_level_rest)
 {
     grid::Levels levels = support::levels_of(support::topologies()[1]);
     for (grid::NodeSum& sum : levels.sum) sum = {2, {1, 1, 1}, {1, 1, 1}, 0};
-    grid::advance_momentum({}, Vec3(1, 1, 1), 0, {2.5, 1.5}, 0.1, levels);
+    grid::advance_momentum({}, Vec3(1, 1, 1), {2.5, 1.5}, 0.1, levels);
     grid::remap_velocity({}, {1.5, 2.5}, levels);
     support::for_each_free_node(levels, [&](const grid::NodeAddress& at, const Vec3&) {
         const auto leaf = static_cast<std::size_t>(at.leaf);
@@ -43,7 +43,7 @@ TEST(Momentum, walls_stop_the_normal_component_on_their_plane_only)
                 for (grid::NodeSum& sum : levels.sum) sum = {1, {1, 1, 1}, {1, 1, 1}, 0};
                 const std::vector<Real> no_cutoff(static_cast<std::size_t>(levels.count), 0);
                 const std::vector<grid::WallPlane> walls{{axis, node0}};
-                grid::advance_momentum(walls, Vec3::Zero(), 0, no_cutoff, 1, levels);
+                grid::advance_momentum(walls, Vec3::Zero(), no_cutoff, 1, levels);
                 const Real plane = levels.origin[axis] + levels.spacing0 * node0;
                 int on_plane = 0;
                 support::for_each_free_node(levels, [&](const grid::NodeAddress& at, const Vec3& x) {

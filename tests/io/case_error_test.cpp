@@ -206,6 +206,16 @@ TEST_F(CaseError, subcycling_that_cannot_be)
     EXPECT_TRUE(contains(complaint(text + "formulation = \"updated\"\n"), error));
     EXPECT_TRUE(contains(complaint(text + "cfl = 0.61\n"), "error: cfl must be at most 0.6 with subcycling"));
     EXPECT_TRUE(contains(complaint(std::string(valid_case) + "[numerics]\nsubcycling = 1\n"), "subcycling"));
+    EXPECT_TRUE(contains(complaint(text + "damping = 3\n"), "error: damping is not built for steps that differ"));
+}
+
+TEST_F(CaseError, damping_memory_without_motion_on_the_nodes)
+{
+    const std::string text = std::string(valid_case) + "[numerics]\ndamping = 3\ndamping_memory = 0.1\n";
+    EXPECT_EQ(complaint(text), "");
+    EXPECT_TRUE(
+        contains(complaint(text + "transfer = \"flip\"\n"), "error: damping_memory needs transfer = \"nodal\""));
+    EXPECT_TRUE(contains(complaint(std::string(valid_case) + "[numerics]\ndamping_memory = -0.1\n"), "damping_memory"));
 }
 
 TEST_F(CaseError, missing_file)

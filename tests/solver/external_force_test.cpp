@@ -1,9 +1,9 @@
-// Loads on surfaces, body forces and damping: totals, what they do, and that a restart goes on with the same bits.
+// Loads on surfaces and body forces: totals, what they do, and that a run goes on with the same bits after a restart.
 #include "solver/external_force.h"
 
 #include "solver/audit.h"
+#include "tests/solver/free_bar.h"
 #include "tests/solver/same_bits.h"
-#include "tests/support/runs.h"
 
 #include <gtest/gtest.h>
 
@@ -28,29 +28,6 @@ solver::SurfaceLoad surface_load(Kind kind, const geometry::Shape& region, Real 
     return load;
 }
 
-/// A bar [0, 2] x [0, 4] x [0, 1] that nothing holds.
-solver::Problem free_bar(Real cell)
-{
-    solver::Problem problem = support::bar(support::metal(), 0, 0);
-    problem.loads.clear();
-    problem.force_upper = problem.force_lower = "";
-    problem.grid.cell = cell;
-    return problem;
-}
-
-/// A corner of a bar on a second level.
-void add_fine_corner(solver::Problem& problem)
-{
-    problem.grid.levels = 2;
-    problem.zones = {support::zone(geometry::box({-1, -1, -1}, {1.1, 1.9, 2}), 1)};
-}
-
-const solver::Numerics schemes[] = {
-    support::numerics(solver::Formulation::updated), support::gimp_numerics(solver::Transfer::flip),
-    support::gimp_numerics(solver::Transfer::apic),  support::numerics(solver::Formulation::total),
-    support::nodal_numerics(solver::Precision::f64), support::nodal_numerics(solver::Precision::mixed),
-};
-
 solver::SurfaceForces forces_of(const solver::Problem& problem)
 {
     Job run = support::started(problem);
@@ -61,7 +38,7 @@ solver::SurfaceForces forces_of(const solver::Problem& problem)
 TEST(SurfaceForces, of_a_plane_face_are_exact_whatever_the_cells)
 {
     for (const Real cell : {0.5, 0.3, 0.7}) { // the last two cut the face
-        solver::Problem problem = free_bar(cell);
+        solver::Problem problem = test::free_bar(cell);
         problem.surface_loads = {surface_load(Kind::traction, support::beyond(1, 3, 1), 0, {3, 5, 7})};
         problem.surface_loads[0].facing = Vec3(0, 1, 0);
         const solver::SurfaceForces surface = forces_of(problem);
@@ -71,7 +48,7 @@ TEST(SurfaceForces, of_a_plane_face_are_exact_whatever_the_cells)
         problem.surface_loads[0].kind = Kind::force;
         EXPECT_LT((forces_of(problem).total[0] - Vec3(3, 5, 7)).norm(), 1e-12) << cell;
     }
-    solver::Problem problem = free_bar(0.5);
+    solver::Problem problem = test::free_bar(0.5);
     problem.surface_loads = {surface_load(Kind::pressure, support::beyond(1, 3.9, 1), 10, Vec3::Zero())};
     problem.surface_loads[0].facing = Vec3(0, 1, 0);
     EXPECT_LT((forces_of(problem).total[0] - Vec3(0, -20, 0)).norm(), 1e-12);
@@ -79,7 +56,7 @@ TEST(SurfaceForces, of_a_plane_face_are_exact_whatever_the_cells)
 
 TEST(SurfaceForces, do_not_push_on_symmetry_planes_or_level_interfaces)
 {
-    solver::Problem problem = free_bar(0.5);
+    solver::Problem problem = test::free_bar(0.5);
     problem.symmetry = {{0, 0}};
     problem.grid.levels = 2;
     problem.zones = {support::zone(geometry::box({-1, -1, -1}, {1, 2.1, 2}), 1)};
@@ -93,7 +70,7 @@ TEST(SurfaceForces, in_a_hole_are_its_projected_area)
 {
     const Real radius = 1.3;
     const geometry::Shape hole = geometry::cylinder({0, 0, -1}, {0, 0, 2}, radius);
-    solver::Problem problem = free_bar(0.25);
+    solver::Problem problem = test::free_bar(0.25);
     problem.symmetry = {{0, 0}, {1, 0}};
     problem.bodies[0].shape = geometry::subtract(geometry::box({0, 0, 0}, {3, 3, 1}), {hole});
     problem.surface_loads = {
@@ -106,10 +83,10 @@ TEST(SurfaceForces, in_a_hole_are_its_projected_area)
 
 TEST(ExternalForce, accelerates_a_free_body_by_its_total_and_does_the_work_it_gains)
 {
-    for (const solver::Numerics& numerics : schemes) {
-        solver::Problem problem = free_bar(0.5);
+    for (const solver::Numerics& numerics : test::schemes) {
+        solver::Problem problem = test::free_bar(0.5);
         problem.numerics = numerics;
-        add_fine_corner(problem);
+        test::add_fine_corner(problem);
         problem.surface_loads = {surface_load(Kind::traction, support::beyond(0, 1.6, 1), 0, {3, 0, 0})};
         problem.surface_loads[0].facing = Vec3(1, 0, 0);
         Job run = support::started(problem);
@@ -123,58 +100,13 @@ TEST(ExternalForce, accelerates_a_free_body_by_its_total_and_does_the_work_it_ga
     }
 }
 
-// Pulled on one face, held on the other, damped to rest: the load that holds it bears what the face does, and damping
-// takes no work any more, on nodes at a level interface neither.
-TEST(ExternalForce, damping_neither_bears_a_body_at_rest_nor_takes_work_from_it)
-{
-    for (const solver::Numerics& numerics : schemes) {
-        solver::Problem problem = support::bar(support::metal(), 0, 0);
-        problem.loads.erase(problem.loads.begin());
-        problem.force_upper = problem.force_lower = "bottom";
-        problem.numerics = numerics;
-        problem.numerics.damping = 600; // near the critical one: 300 rad/ms along the bar
-        add_fine_corner(problem);
-        problem.surface_loads = {surface_load(Kind::traction, support::beyond(1, 3.6, 1), 0, {0, 0.1, 0})};
-        problem.surface_loads[0].facing = Vec3(0, 1, 0);
-        Job run = support::started(problem);
-        support::advance(1200, run);
-        const solver::Ledger before = solver::audit(run.prepared, run.state);
-        const Real time = run.state.clock.time;
-        for (solver::LoadState& load : run.state.loads) load.impulse = Vec3::Zero();
-        support::advance(1200, run);
-        const Real tolerance = numerics.precision == solver::Precision::mixed ? 1e-3 : 1e-4;
-        EXPECT_NEAR(run.state.loads[0].impulse[1] / (-0.2 * (run.state.clock.time - time)), 1, 10 * tolerance);
-        // Boxes reach nodes whose forces cancel in every particle: these nodes are damped for ever.
-        if (numerics.basis == solver::Basis::gimp) continue;
-        const solver::Ledger ledger = solver::audit(run.prepared, run.state);
-        EXPECT_LT(std::abs(ledger.damping - before.damping), tolerance * ledger.external);
-    }
-}
-
-TEST(ExternalForce, damping_slows_a_free_body_exponentially_and_is_in_the_ledger)
-{
-    for (const solver::Numerics& numerics : schemes) {
-        solver::Problem problem = free_bar(0.5);
-        problem.numerics = numerics;
-        problem.numerics.damping = 30;
-        problem.bodies[0].velocity = Vec3(1, 2, 0);
-        Job run = support::started(problem);
-        const solver::Ledger start = solver::audit(run.prepared, run.state);
-        support::advance(100, run);
-        const solver::Ledger ledger = solver::audit(run.prepared, run.state);
-        const Real kept = std::exp(-2 * 30 * run.state.clock.time);
-        EXPECT_NEAR(ledger.kinetic / (start.kinetic * kept), 1, 1e-4);
-        EXPECT_NEAR(ledger.residual() / start.kinetic, 0, 1e-4);
-    }
-}
-
 TEST(ExternalForce, goes_on_with_the_same_bits_after_a_restart)
 {
-    for (const solver::Numerics& numerics : schemes) {
-        solver::Problem problem = free_bar(0.5);
+    for (const solver::Numerics& numerics : test::schemes) {
+        solver::Problem problem = test::free_bar(0.5);
         problem.numerics = numerics;
         problem.numerics.damping = 3;
-        add_fine_corner(problem);
+        test::add_fine_corner(problem);
         problem.motions = {{"spin", problem.materials[0].elastic, solver::Spin{{1, 2, 0.5}, 2, 15, {30, 0, 0}}}};
         problem.bodies[0].initial = 0;
         problem.bodies[0].body_force = 0;

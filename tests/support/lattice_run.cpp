@@ -85,7 +85,7 @@ void advance(Real dt, LatticeRun& run)
     Scene& scene = run.scene;
     scene.options.dt = dt;
     scene.options.time += dt;
-    grid::advance_nodes(run.walls, run.gravity, 0, {dt}, scene.levels);
+    grid::advance_nodes(run.walls, run.gravity, {dt}, scene.levels);
     grid::prolong_motion(scene.levels);
     grid::fill_motion_halos(scene.levels);
     scene.leaf_work.assign(scene.levels.leaves.size(), {});
@@ -102,7 +102,7 @@ void advance_subcycled(Real dt, LatticeRun& run)
     for (unsigned n = 0; n < 1U << finest; ++n) {
         scene.options.time += dt;
         steps.first = n == 0 ? 0 : finest - std::countr_zero(n);
-        grid::advance_nodes(run.walls, run.gravity, 0, steps, scene.levels);
+        grid::advance_nodes(run.walls, run.gravity, steps, scene.levels);
         grid::drift_fast_nodes(dt, scene.levels, run.fast_nodes);
         steps.first = finest - std::countr_zero(n + 1);
         grid::prolong_displacement(steps, scene.levels);

@@ -40,7 +40,7 @@ void restart_with(const Change& change, Job& run)
     }
     change(state.particles);
     transfer::scatter(run.prepared.options, run.prepared.laws, state.strays, state.particles, state.levels);
-    if (nodal) solver::start_nodal(run.prepared, state);
+    if (nodal) solver::start_nodal(run.problem, run.prepared, state);
 }
 
 /// Particles with every column, whatever the scheme.

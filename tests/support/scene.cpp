@@ -187,7 +187,7 @@ void advance(Real dt, Scene& scene)
     const std::vector<Real> no_cutoff(static_cast<std::size_t>(scene.levels.count), Real(0));
     grid::assemble_sums(scene.levels);
     grid::restrict_sums(scene.levels);
-    grid::advance_momentum({}, Vec3::Zero(), 0, no_cutoff, dt, scene.levels);
+    grid::advance_momentum({}, Vec3::Zero(), no_cutoff, dt, scene.levels);
     grid::prolong_motion(scene.levels);
     grid::fill_motion_halos(scene.levels);
     if (scene.options.stress_update == transfer::StressUpdate::musl) {

@@ -335,7 +335,7 @@ void step(Scene& scene, Real dt)
     const std::vector<Real> no_cutoff(static_cast<std::size_t>(scene.levels.count), Real(0));
     grid::assemble_sums(scene.levels);
     grid::restrict_sums(scene.levels);
-    grid::advance_momentum(scene.options.walls, Vec3::Zero(), 0, no_cutoff, dt, scene.levels);
+    grid::advance_momentum(scene.options.walls, Vec3::Zero(), no_cutoff, dt, scene.levels);
     grid::prolong_motion(scene.levels);
     grid::fill_motion_halos(scene.levels);
     if (scene.options.stress_update == StressUpdate::musl) {
