@@ -155,9 +155,11 @@ support::Job from_file(support::Job& run, const std::filesystem::path& folder)
 // Cracks start before some checkpoints and after others.
 TEST(Checkpoint, ANodalRunContinuesToTheSameBits)
 {
-    for (const solver::Numerics& numerics :
-         {support::nodal_numerics(solver::Precision::f64), support::nodal_numerics(solver::Precision::mixed),
-          support::subcycled_numerics(solver::Precision::mixed)})
+    solver::Numerics damped = support::nodal_numerics(solver::Precision::mixed);
+    damped.damping = 20;
+    damped.damping_memory = 0.01;
+    for (const solver::Numerics& numerics : {support::nodal_numerics(solver::Precision::f64), damped,
+                                             support::subcycled_numerics(solver::Precision::mixed)})
     {
         const support::Folder folder;
         support::Job run = torn_bar(numerics);
@@ -173,6 +175,8 @@ TEST(Checkpoint, ANodalRunContinuesToTheSameBits)
             test::expect_same_loads(straight.state.loads, again.state.loads);
             EXPECT_TRUE(test::same_bits(straight.state.levels.motion, again.state.levels.motion));
             EXPECT_TRUE(test::same_bits(straight.state.levels.force, again.state.levels.force));
+            EXPECT_TRUE(test::same_bits(straight.state.levels.mean, again.state.levels.mean));
+            EXPECT_EQ(straight.state.damped_work, again.state.damped_work);
             EXPECT_EQ(bits(straight.state.leaf_work), bits(again.state.leaf_work));
             ASSERT_FALSE(HasFailure()) << "from step " << run.state.clock.step;
             found += cracks > 0 ? 1 : 0;
