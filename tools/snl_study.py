@@ -35,6 +35,7 @@ SECOND = [f"{DECOHESION}.second_crack=true"]
 MOMENT = [f"{DECOHESION}.lode_memory=0"]
 D_AT = "feature.D.centre=[18.52, {:.2f}, 0]"
 AT_START = ['end.time="1e-5 ms"']
+UNDAMPED = ["numerics.damping=0"]
 
 
 @dataclasses.dataclass
@@ -105,8 +106,8 @@ VARIANTS = {
     "objective-long": Variant("objective", OBJECTIVE, "to COD 10 mm", ["end.cod=10", 'end.time="2.4 ms"']),
     "objective-memory-0.02": Variant("objective", OBJECTIVE, "memory of 0.02", [f"{DECOHESION}.lode_memory=0.02"]),
     "objective-memory-0.1": Variant("objective", OBJECTIVE, "memory of 0.1", [f"{DECOHESION}.lode_memory=0.1"]),
-    "moment": Variant("moment", OBJECTIVE, "no memory", MOMENT),
-    **changed(["shifted-x", "shifted-y"], "moment", OBJECTIVE, "moment-", "no memory, ", MOMENT),
+    "moment": Variant("moment", OBJECTIVE, "no memory", MOMENT + UNDAMPED),
+    **changed(["shifted-x", "shifted-y"], "moment", OBJECTIVE, "moment-", "no memory, ", MOMENT + UNDAMPED),
     "slice": Variant("slice", "snl/slice.toml", "cells of 0.25 mm"),
     "slice-fine": Variant("slice", "snl/slice.toml", "cells of 0.125 mm", ["grid.cell=0.25"]),
     "fine-mixed": Variant("fine", FINE, "paper, mixed mode, three levels"),
@@ -130,7 +131,17 @@ VARIANTS = {
                               ['output.particles.fields=["stress", "damage", "eq_plastic_strain"]']),
     **{f"coupon-{v:g}": Variant("coupon", COUPON, f"{2 * v:g} m/s", grip_speed(v)) for v in (0.5, 2.5, 5)},
 }
-EVENT_GROUPS = ["preview", "objective", "moment", "slice", "fine"]
+SAME_METAL = {  # runs of the objective model that differ by what should not matter: the lattice's place, rounding
+    "0.25 mm": ["objective", "objective-avx2", "objective-shifted-x", "objective-shifted-y"],
+    "0.125 mm": ["objective-challenge", "objective-challenge-avx2", "objective-challenge-x", "objective-challenge-y"],
+}
+HOW = ["as shipped", "kernels of AVX2", "lattice moved in x", "lattice moved in y"]
+SAME_UNDAMPED = {cell: [name.replace("objective", "undamped") for name in names] for cell, names in SAME_METAL.items()}
+for cell, names in SAME_METAL.items():
+    for name, twin in zip(names, SAME_UNDAMPED[cell]):
+        VARIANTS[twin] = dataclasses.replace(VARIANTS[name], group="undamped", change=VARIANTS[name].change + ", undamped",
+                                             overrides=VARIANTS[name].overrides + UNDAMPED)
+EVENT_GROUPS = ["preview", "objective", "undamped", "moment", "slice", "fine"]
 EVENTS = (1, 2, 3)
 MEASURES = ["peak_force_N"] + [f"c{k}_{what}" for k in EVENTS for what in ("force_N", "mean_N", "cod_mm")]
 
@@ -355,27 +366,20 @@ def off(value, against):
     return f" ({100 * (value / against - 1):+.0f} %)"
 
 
-SAME_METAL = {  # runs of the objective model that differ by what should not matter: the lattice's place, rounding
-    "0.25 mm": ["objective", "objective-avx2", "objective-shifted-x", "objective-shifted-y"],
-    "0.125 mm": ["objective-challenge", "objective-challenge-avx2", "objective-challenge-x", "objective-challenge-y"],
-}
-HOW = ["as shipped", "kernels of AVX2", "lattice moved in x", "lattice moved in y"]
-
-
 def mean_of(rows, names):
     """A row of the means of those; their common path, or all of them."""
     return {key: float(np.mean([rows[name][key] for name in names])) for key in MEASURES} | {
         "crack_path": ", ".join(sorted({rows[name]["crack_path"] for name in names}))}
 
 
-def spread(rows, reference):
+def spread(rows, same_metal, reference):
     """Those runs, their means, how far the farthest goes from them, and what half the cells change."""
     digits = [2 if key.endswith("mm") else 0 for key in MEASURES]
     shown = lambda title, cells: f"| {title} | " + " | ".join(cells) + " |"
     lines = [shown("", ["maximum, N"] + [f"C{k}, {unit}" for k in EVENTS for unit in ("N", "mean N", "mm")]),
              "|---" * (len(MEASURES) + 1) + "|"]
     means = {}
-    for cell, names in SAME_METAL.items():
+    for cell, names in same_metal.items():
         values = np.array([[rows[name][key] for key in MEASURES] for name in names], float)
         mean = mean_of(rows, names)
         means[cell] = np.array([mean[key] for key in MEASURES])
@@ -426,9 +430,9 @@ def draw_all(images, results, reference):
     modes = ["opening", "shear", "mixed"]
     if all("fine-" + name in results for name in modes):
         modes = ["fine-" + name for name in modes]
-    objective = ["objective-challenge", "objective", "objective-bridged", "moment"]
+    objective = ["objective-challenge", "objective", "objective-bridged", "undamped"]
     paths = ["objective-challenge", "objective", "objective-D", "objective-C"]
-    of_memory = [model + lattice for model in ("objective", "moment") for lattice in ("", "-shifted-x", "-shifted-y")]
+    of_memory = [model + lattice for model in ("undamped", "moment") for lattice in ("", "-shifted-x", "-shifted-y")]
     of_lattice = ["objective-challenge", "objective-challenge-x", "objective-challenge-y"]
     curves = lambda *of: draw_curves(*of, reference)
     for name, draw, names in [
@@ -451,7 +455,8 @@ def write_page(results, reference):
     page = ROOT / "docs/snl.md"
     text = replaced(page.read_text(), "table 1", table_one(by_name, reference))
     text = replaced(text, "programs", programs(rows))
-    text = replaced(text, "spread", spread(by_name, reference))
+    text = replaced(text, "spread", spread(by_name, SAME_METAL, reference))
+    text = replaced(text, "spread undamped", spread(by_name, SAME_UNDAMPED, reference))
     for group in EVENT_GROUPS:
         members = [row for row in rows if row["group"] == group]
         if members and f"<!-- {group} -->" in text:
