@@ -3,7 +3,7 @@
 ///     m v' = f + m g - m a (v - u),   u' = (v - u) / T,   or u = 0 without a memory T
 ///
 /// Without one a body that moves steadily is dragged. With one its mean u follows, the drag ends, and a wave of angular
-/// frequency w decays as exp(-t a / 2 (w T)^2 / (1 + (w T)^2)): each node pulls a mass a T m along by a dashpot m a.
+/// frequency o decays as exp(-t a / 2 (o T)^2 / (1 + (o T)^2)): each node pulls a mass a T m along by a dashpot m a.
 /// That takes energy and, other than a drag by the size of the force out of balance (Cundall 1987), does not oppose
 /// steady motion where there is noise, being linear.
 #pragma once

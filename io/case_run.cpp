@@ -76,6 +76,8 @@ void read_numerics(Draft& draft)
                                solver::subcycled_step_share));
     if (numerics.subcycling && numerics.damping > 0)
         section.error("damping", "damping is not built for steps that differ between levels (subcycling = true)");
+    if (!std::isinf(numerics.damping_memory) && numerics.damping == 0)
+        draft.diagnostics.warning(section.place("damping_memory"), "damping_memory changes nothing without damping");
     if (numerics.damps_fast_motion_only() && numerics.transfer != solver::Transfer::nodal)
         section.error("damping_memory", "damping_memory needs transfer = \"nodal\": the nodes keep the means");
     if (numerics.subcycling && draft.problem.grid.levels == 1)

@@ -137,10 +137,9 @@ SAME_METAL = {  # runs of the objective model that differ by what should not mat
 }
 HOW = ["as shipped", "kernels of AVX2", "lattice moved in x", "lattice moved in y"]
 SAME_UNDAMPED = {cell: [name.replace("objective", "undamped") for name in names] for cell, names in SAME_METAL.items()}
-for cell, names in SAME_METAL.items():
-    for name, twin in zip(names, SAME_UNDAMPED[cell]):
-        VARIANTS[twin] = dataclasses.replace(VARIANTS[name], group="undamped", change=VARIANTS[name].change + ", undamped",
-                                             overrides=VARIANTS[name].overrides + UNDAMPED)
+VARIANTS |= {name.replace("objective", "undamped"): dataclasses.replace(
+    variant, group="undamped", change=variant.change + ", undamped", overrides=variant.overrides + UNDAMPED)
+    for name, variant in VARIANTS.items() if name.startswith("objective")}
 EVENT_GROUPS = ["preview", "objective", "undamped", "moment", "slice", "fine"]
 EVENTS = (1, 2, 3)
 MEASURES = ["peak_force_N"] + [f"c{k}_{what}" for k in EVENTS for what in ("force_N", "mean_N", "cod_mm")]
@@ -430,7 +429,7 @@ def draw_all(images, results, reference):
     modes = ["opening", "shear", "mixed"]
     if all("fine-" + name in results for name in modes):
         modes = ["fine-" + name for name in modes]
-    objective = ["objective-challenge", "objective", "objective-bridged", "undamped"]
+    objective = ["objective-challenge", "undamped-challenge", "objective", "undamped"]
     paths = ["objective-challenge", "objective", "objective-D", "objective-C"]
     of_memory = [model + lattice for model in ("undamped", "moment") for lattice in ("", "-shifted-x", "-shifted-y")]
     of_lattice = ["objective-challenge", "objective-challenge-x", "objective-challenge-y"]

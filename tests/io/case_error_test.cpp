@@ -216,6 +216,10 @@ TEST_F(CaseError, damping_memory_without_motion_on_the_nodes)
     EXPECT_TRUE(
         contains(complaint(text + "transfer = \"flip\"\n"), "error: damping_memory needs transfer = \"nodal\""));
     EXPECT_TRUE(contains(complaint(std::string(valid_case) + "[numerics]\ndamping_memory = -0.1\n"), "damping_memory"));
+    const std::string idle = std::string(valid_case) + "[numerics]\ndamping_memory = 0.1\n";
+    const std::vector<std::string> warnings = io::read_case_with_warnings(write(idle)).warnings;
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_TRUE(contains(warnings[0], "warning: damping_memory changes nothing without damping"));
 }
 
 TEST_F(CaseError, missing_file)
