@@ -430,7 +430,7 @@ def draw_all(images, results, reference):
     if all("fine-" + name in results for name in modes):
         modes = ["fine-" + name for name in modes]
     objective = ["objective-challenge", "undamped-challenge", "objective", "undamped"]
-    paths = ["objective-challenge", "objective", "objective-D", "objective-C"]
+    paths = ["objective-challenge", "objective", "undamped-D", "undamped-C"]
     of_memory = [model + lattice for model in ("undamped", "moment") for lattice in ("", "-shifted-x", "-shifted-y")]
     of_lattice = ["objective-challenge", "objective-challenge-x", "objective-challenge-y"]
     curves = lambda *of: draw_curves(*of, reference)
