@@ -231,47 +231,58 @@ std::vector<solver::Sample> load_samples(const Hdf5Reader& file)
     return samples;
 }
 
+/// The three numbers that `part` names of every node.
+template <class Node>
+void store_nodes_of(const std::string& path, const std::vector<Node>& nodes, std::array<Real, 3> Node::*part,
+                    Hdf5Writer& file)
+{
+    std::vector<Real> rows;
+    rows.reserve(3 * nodes.size());
+    for (const Node& node : nodes) rows.insert(rows.end(), (node.*part).begin(), (node.*part).end());
+    store(path, rows, 3, file);
+}
+
+template <class Node>
+void load_nodes_of(const Hdf5Reader& file, const std::string& path, std::size_t count, std::array<Real, 3> Node::*part,
+                   std::vector<Node>& nodes)
+{
+    const auto rows = file.dataset<Real>(path);
+    if (rows.size() != 3 * count) damaged(file, "the nodes do not fit the leaves");
+    nodes.assign(count, {});
+    for (std::size_t n = 0; n < count; ++n)
+        for (std::size_t a = 0; a < 3; ++a) (nodes[n].*part)[a] = rows[3 * n + a];
+}
+
 /// Motion of all nodes, the force they begin the next step with and their mean velocity; nodal scheme only.
 void store_nodes(const solver::State& state, Hdf5Writer& file)
 {
     if (!state.lattice.in_use()) return;
-    std::vector<Real> motion, force;
+    std::vector<Real> motion;
     for (const grid::NodeMotion& node : state.levels.motion) {
         motion.insert(motion.end(), node.velocity.begin(), node.velocity.end());
         motion.insert(motion.end(), node.change.begin(), node.change.end());
     }
-    for (const grid::NodeForce& node : state.levels.force)
-        force.insert(force.end(), node.force.begin(), node.force.end());
     store("/levels/motion", motion, 6, file);
-    store("/levels/force", force, 3, file);
-    if (state.levels.mean.empty()) return;
-    std::vector<Real> mean;
-    for (const grid::NodeMean& node : state.levels.mean)
-        mean.insert(mean.end(), node.velocity.begin(), node.velocity.end());
-    store("/levels/mean_velocity", mean, 3, file);
+    store_nodes_of("/levels/force", state.levels.force, &grid::NodeForce::force, file);
+    if (!state.levels.mean.empty())
+        store_nodes_of("/levels/mean_velocity", state.levels.mean, &grid::NodeMean::velocity, file);
 }
 
 void load_nodes(const Hdf5Reader& file, solver::State& state)
 {
     if (!file.exists("/levels/motion")) return;
     const auto motion = file.dataset<Real>("/levels/motion");
-    const auto force = file.dataset<Real>("/levels/force");
     const std::size_t nodes = state.levels.leaves.size() * grid::tile_nodes;
-    if (motion.size() != 6 * nodes || force.size() != 3 * nodes) damaged(file, "the nodes do not fit the leaves");
+    if (motion.size() != 6 * nodes) damaged(file, "the nodes do not fit the leaves");
     state.levels.motion.assign(nodes, {});
-    state.levels.force.assign(nodes, {});
     for (std::size_t n = 0; n < nodes; ++n)
         for (std::size_t a = 0; a < 3; ++a) {
             state.levels.motion[n].velocity[a] = motion[6 * n + a];
             state.levels.motion[n].change[a] = motion[6 * n + 3 + a];
-            state.levels.force[n].force[a] = force[3 * n + a];
         }
-    if (!file.exists("/levels/mean_velocity")) return;
-    const auto mean = file.dataset<Real>("/levels/mean_velocity");
-    if (mean.size() != 3 * nodes) damaged(file, "the nodes do not fit the leaves");
-    state.levels.mean.assign(nodes, {});
-    for (std::size_t n = 0; n < nodes; ++n)
-        for (std::size_t a = 0; a < 3; ++a) state.levels.mean[n].velocity[a] = mean[3 * n + a];
+    load_nodes_of(file, "/levels/force", nodes, &grid::NodeForce::force, state.levels.force);
+    if (file.exists("/levels/mean_velocity"))
+        load_nodes_of(file, "/levels/mean_velocity", nodes, &grid::NodeMean::velocity, state.levels.mean);
 }
 } // namespace
 

@@ -3,7 +3,6 @@
 
 #include "solver/audit.h"
 #include "tests/solver/free_bar.h"
-#include "tests/solver/same_bits.h"
 
 #include <gtest/gtest.h>
 
@@ -15,18 +14,7 @@ using support::Job;
 namespace
 {
 using Kind = solver::SurfaceLoad::Kind;
-
-solver::SurfaceLoad surface_load(Kind kind, const geometry::Shape& region, Real pressure, const Vec3& vector)
-{
-    solver::SurfaceLoad load;
-    load.name = "push";
-    load.region = region;
-    load.kind = kind;
-    load.pressure = pressure;
-    load.vector = vector;
-    load.ramp = {solver::Ramp::Kind::step, 0};
-    return load;
-}
+using test::surface_load;
 
 solver::SurfaceForces forces_of(const solver::Problem& problem)
 {
@@ -114,12 +102,7 @@ TEST(ExternalForce, goes_on_with_the_same_bits_after_a_restart)
         problem.surface_loads[0].ramp = {solver::Ramp::Kind::linear, 0.05};
         Job run = support::started(problem);
         support::advance(70, run);
-        Job again = support::resumed(run);
-        support::advance(40, run);
-        support::advance(40, again);
-        test::expect_same_particles(support::particles_of(run), support::particles_of(again));
-        EXPECT_EQ(run.state.source_work, again.state.source_work);
-        EXPECT_EQ(run.state.damped_work, again.state.damped_work);
+        test::expect_same_bits_after_a_restart(40, run);
         EXPECT_NE(run.state.source_work, 0);
     }
 }
