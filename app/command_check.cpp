@@ -1,7 +1,9 @@
 /// `cleave check CASE`: errors, warnings, and what the run will cost.
+#include "app/bytes_text.h"
 #include "app/commands.h"
 #include "app/forecast.h"
 #include "io/case.h"
+#include "io/process_memory.h"
 #include "solver/stable_time_step.h"
 
 #include <CLI/CLI.hpp>
@@ -23,14 +25,6 @@ struct Options
     int threads = 0;
 };
 
-std::string bytes_text(Real bytes)
-{
-    constexpr std::string_view names[] = {"B", "kB", "MB", "GB", "TB"};
-    std::size_t n = 0;
-    while (bytes >= 1000 && n + 1 < std::size(names)) bytes /= 1000, ++n;
-    return fmt::format("{:.3g} {}", bytes, names[n]);
-}
-
 std::string duration_text(Real seconds)
 {
     if (seconds < 90) return fmt::format("{:.0f} s", std::max(Real(1), seconds));
@@ -51,8 +45,12 @@ void print_forecast(const solver::Problem& problem, const Forecast& forecast, in
     for (std::size_t l = 0; l < forecast.particles.size(); ++l)
         levels += fmt::format("{}level {} ({} mm): {}", l == 0 ? "" : ", ", l,
                               problem.grid.cell / static_cast<Real>(1 << l), forecast.particles[l]);
-    fmt::print("particles    {}; {}\n", forecast.total_particles(), levels);
-    fmt::print("memory       {}\n", bytes_text(forecast.memory));
+    fmt::print("particles    {}; {}{}\n", forecast.total_particles(), levels,
+               forecast.estimated ? "; estimated from volumes" : "");
+    const auto available = static_cast<Real>(io::machine_bytes());
+    fmt::print("memory       {}{}\n", bytes_text(forecast.memory),
+               forecast.memory > available ? fmt::format(", more than the {} of this machine", bytes_text(available))
+                                           : std::string());
     fmt::print("time step    {:.4g} ms at the start{}\n", forecast.dt,
                problem.numerics.subcycling ? fmt::format(", of the finest level; of the coarsest {:.4g} ms",
                                                          solver::substeps(problem) * forecast.dt)

@@ -1,8 +1,10 @@
 /// `cleave run`: read a case, advance it to its end, write the result directory.
+#include "app/bytes_text.h"
 #include "app/commands.h"
 #include "app/commit.h"
 #include "app/compiler_name.h"
 #include "app/exit_code.h"
+#include "app/forecast.h"
 #include "app/log.h"
 #include "app/measure_table.h"
 #include "app/progress.h"
@@ -135,6 +137,14 @@ std::string finish_text(solver::Finish finish)
     return "stopped on request, with a checkpoint; --resume continues";
 }
 
+void warn_of_memory(const solver::Problem& problem, Log& log)
+{
+    const Real needed = memory_of(estimate_particles(problem)), available = static_cast<Real>(io::machine_bytes());
+    if (needed > available)
+        log.line(fmt::format("warning: the run needs about {} of memory, this machine has {} (cleave check tells more)",
+                             bytes_text(needed), bytes_text(available)));
+}
+
 int run_case(const RunOptions& options)
 {
     io::Case read = io::read_case_with_warnings(options.file, options.overrides);
@@ -146,6 +156,7 @@ int run_case(const RunOptions& options)
         throw core::InputError(
             fmt::format("another run is writing to {}: wait for it, or choose another -o", directory.string()));
     for (const std::string& warning : read.warnings) log.line(warning);
+    warn_of_memory(read.problem, log);
     const int hardware = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     const int threads = options.threads > 0 ? options.threads : hardware;
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));

@@ -1,6 +1,7 @@
 #include "app/forecast.h"
 
 #include "io/particle_fields.h"
+#include "refine/estimate.h"
 #include "refine/populate.h"
 #include "refine/zone.h"
 #include "solver/lattice.h"
@@ -123,6 +124,12 @@ Real kinetic_share(const solver::Problem& problem)
 }
 } // namespace
 
+Real memory_of(const ParticleCount& counted)
+{
+    return program_bytes + bytes_per_particle * static_cast<Real>(counted.total_particles()) +
+           bytes_per_leaf * static_cast<Real>(counted.leaves);
+}
+
 std::uint64_t ParticleCount::total_particles() const
 {
     std::uint64_t total = 0;
@@ -150,9 +157,23 @@ std::string grid_sections(const std::string& resolved)
     return sections;
 }
 
+ParticleCount estimate_particles(const solver::Problem& problem)
+{
+    ParticleCount count;
+    count.estimated = true;
+    const Real of_leaf = 512 * static_cast<Real>(problem.grid.particles_per_cell);
+    for (const Real particles : refine::estimated_particles(solver::scene_of(problem))) {
+        count.particles.push_back(static_cast<std::uint64_t>(particles));
+        count.leaves += static_cast<std::uint64_t>(std::ceil(particles / of_leaf));
+    }
+    return count;
+}
+
 // Seed one slab of level-0 cells after the other, count, forget.
 ParticleCount count_particles(const solver::Problem& problem)
 {
+    const ParticleCount estimate = estimate_particles(problem);
+    if (static_cast<Real>(estimate.total_particles()) > countable) return estimate;
     const refine::Lattice lattice = solver::lattice_of(problem.grid);
     const grid::Refinement refinement = refine::refinement_of(problem.zones, lattice, problem.bounds());
     const int per_axis = solver::particles_per_axis(problem.grid);
@@ -197,8 +218,7 @@ Forecast forecast(const solver::Problem& problem, const ParticleCount& counted)
         forecast.particle_steps += forecast.steps * static_cast<Real>(forecast.particles[l]) *
                                    (problem.numerics.subcycling ? Real(1 << l) : Real(1));
     const Real particles = static_cast<Real>(forecast.total_particles());
-    forecast.memory =
-        program_bytes + bytes_per_particle * particles + bytes_per_leaf * static_cast<Real>(forecast.leaves);
+    forecast.memory = memory_of(counted);
     forecast.particle_frames = frames(problem.output.particles, forecast, problem);
     forecast.particle_bytes = forecast.particle_frames * particles * bytes_per_written_particle(problem.output);
     forecast.grid_frames = frames(problem.output.grid, forecast, problem);

@@ -22,6 +22,7 @@ struct ParticleCount
 {
     std::vector<std::uint64_t> particles; // per level
     std::uint64_t leaves = 0;             // 1, 8^3 blocks of cells on all levels
+    bool estimated = false;               // from volumes
 
     std::uint64_t total_particles() const;
 };
@@ -46,9 +47,17 @@ struct Forecast : ParticleCount
 /// but once.
 std::string grid_sections(const std::string& resolved);
 
+/// From the volumes of bodies and zones: at once, whatever their number.
+ParticleCount estimate_particles(const solver::Problem& problem);
+
 /// Count particles level by level as a run would seed them, slab by slab so that memory stays small: seconds for
-/// millions.
+/// millions. More than `countable` are estimated.
 ParticleCount count_particles(const solver::Problem& problem);
+
+inline constexpr Real countable = 3e7; // particles, half a minute
+
+/// Memory that a run takes [byte].
+Real memory_of(const ParticleCount& counted);
 
 Forecast forecast(const solver::Problem& problem);
 

@@ -1,5 +1,5 @@
 #include "io/case_draft.h"
-#include "refine/coverage.h"
+#include "refine/estimate.h"
 #include "solver/begin_motion.h"
 #include "solver/external_force.h"
 #include "solver/lattice.h"
@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace io
 {
@@ -57,15 +58,19 @@ void check_particles_per_cell(Draft& draft)
                                   "8 is the usual choice");
 }
 
-/// What is asked of the mesh to come.
-/// @pre  the number of particles per cell is a cube
-refine::Scene scene_of(const solver::Problem& problem)
+/// @return whether a run could number them
+bool check_particle_count(Draft& draft, const refine::Scene& scene)
 {
-    refine::Scene scene{solver::lattice_of(problem.grid), problem.zones, {}};
-    for (const solver::Body& body : problem.bodies) scene.bodies.push_back(body.shape);
-    scene.edge = problem.grid.edge;
-    scene.per_axis = solver::particles_per_axis(problem.grid);
-    return scene;
+    const std::vector<Real> on_level = refine::estimated_particles(scene);
+    const Real count = std::accumulate(on_level.begin(), on_level.end(), Real(0));
+    if (count <= refine::most_particles) return true;
+    const Real cell = draft.problem.grid.cell * std::cbrt(count / refine::most_particles);
+    const Node* value = draft.root.find("grid")->find("cell");
+    draft.diagnostics.error(value ? value->place : draft.grid.place,
+                            fmt::format("cells of {} mm are about {:.1e} particles: a run numbers {:.1e} at most",
+                                        draft.problem.grid.cell, count, refine::most_particles),
+                            fmt::format("lengths are in mm; with these zones cells of {:.1g} mm or more", cell));
+    return false;
 }
 
 /// @return whether all have particles
@@ -90,15 +95,6 @@ bool check_bodies(Draft& draft, const refine::Scene& scene)
         }
     }
     return all;
-}
-
-/// Highest level the zones ask for at a point.
-int level_at(const Draft& draft, const Vec3& point)
-{
-    int level = 0;
-    for (const solver::Zone& zone : draft.problem.zones)
-        if (zone.shape.distance(point) < zone.margin) level = std::max(level, zone.level);
-    return level;
 }
 
 void check_zones(Draft& draft, const refine::Scene& scene)
@@ -127,7 +123,8 @@ void check_zones(Draft& draft, const refine::Scene& scene)
         const Real ring = 2 * spacing;
         const bool jump = any_sample(draft, geometry::grown(region, ring).bounds(), spacing, [&](const Vec3& p) {
             const Real distance = region.distance(p);
-            return distance > 0 && distance < ring && level_at(draft, p) < zone.level - 1 && in_a_body(draft, p);
+            return distance > 0 && distance < ring && refine::level_at(problem.zones, p) < zone.level - 1 &&
+                   in_a_body(draft, p);
         });
         if (jump)
             draft.diagnostics.warning(
@@ -301,8 +298,8 @@ void check_case(Draft& draft)
     check_symmetry(draft);
     // Whether something lies in a body can only be told when every body is known, and what was cut out of it.
     if (draft.problem.bodies.empty() || !all_sound(draft.bodies) || !all_sound(draft.features)) return;
-    const refine::Scene scene = scene_of(draft.problem);
-    if (!check_bodies(draft, scene)) return;
+    const refine::Scene scene = solver::scene_of(draft.problem);
+    if (!check_particle_count(draft, scene) || !check_bodies(draft, scene)) return;
     check_zones(draft, scene);
     check_loads(draft, scene, all_sound(draft.materials) && !draft.materials.empty());
     check_surface_loads(draft);

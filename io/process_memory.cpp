@@ -25,6 +25,11 @@ std::uint64_t peak_resident_bytes()
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in kB
 }
 
+std::uint64_t machine_bytes()
+{
+    return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
 void return_free_memory()
 {
 #ifdef __GLIBC__

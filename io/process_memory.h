@@ -10,6 +10,9 @@ std::uint64_t resident_bytes();
 /// Largest resident memory since the start of the process [byte].
 std::uint64_t peak_resident_bytes();
 
+/// Memory of the machine [byte].
+std::uint64_t machine_bytes();
+
 /// Give memory that was freed inside the allocator's heap back to the system: after the beginning of a run and after
 /// output, which leave large holes.
 void return_free_memory();

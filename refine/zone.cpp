@@ -33,6 +33,14 @@ void subdivide(const std::vector<Zone>& zones, const Lattice& lattice, int level
 }
 } // namespace
 
+int level_at(const std::vector<Zone>& zones, const Vec3& point)
+{
+    int level = 0;
+    for (const Zone& zone : zones)
+        if (zone.shape.distance(point) < zone.margin) level = std::max(level, zone.level);
+    return level;
+}
+
 int wanted_level(const std::vector<Zone>& zones, const Vec3& lower, Real spacing)
 {
     int level = 0;

@@ -25,6 +25,9 @@ struct Lattice
     int levels = 1;
 };
 
+/// Highest level of a zone that holds the point, grown by its margin; 0 if none does.
+int level_at(const std::vector<Zone>& zones, const Vec3& point);
+
 /// Level a cell should have: the highest level of a zone that holds its centre or one of its corners, grown by its
 /// margin; 0 if none does.
 int wanted_level(const std::vector<Zone>& zones, const Vec3& lower, Real spacing);

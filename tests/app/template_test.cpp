@@ -47,6 +47,18 @@ TEST(Forecast, counts_the_particles_of_a_block)
     EXPECT_EQ(forecast.steps, std::ceil(1 / forecast.dt));
 }
 
+TEST(Forecast, estimates_particles_that_take_long_to_count)
+{
+    solver::Problem problem = refined_block();
+    EXPECT_FALSE(app::count_particles(problem).estimated);
+    problem.grid.cell = 0.01;
+    const app::ParticleCount count = app::count_particles(problem);
+    EXPECT_TRUE(count.estimated);
+    EXPECT_NEAR(static_cast<Real>(count.particles.at(1)), 4 * 4 * 4 * 64e6, 0.07 * 4 * 4 * 4 * 64e6);
+    EXPECT_NEAR(static_cast<Real>(count.particles.at(0)), 16 * 4 * 4 * 8e6, 0.07 * 16 * 4 * 4 * 8e6);
+    EXPECT_GT(app::memory_of(count), 360 * static_cast<Real>(count.total_particles()));
+}
+
 TEST(Forecast, counts_the_bytes_of_grid_frames)
 {
     solver::Problem problem = refined_block();

@@ -358,6 +358,15 @@ TEST_F(CaseError, opening_without_a_gauge)
     EXPECT_TRUE(contains(complaint(text), "the end by opening needs a gauge"));
 }
 
+TEST_F(CaseError, more_particles_than_a_run_can_number)
+{
+    const std::string text = complaint(with(valid_case, "cell = 1\n", "cell = 0.001\n"));
+    EXPECT_TRUE(contains(text, "case.toml:3:8: error: cells of 0.001 mm are about"));
+    EXPECT_TRUE(contains(text, "a run numbers 4.3e+09 at most\n"));
+    EXPECT_TRUE(contains(text, "lengths are in mm; with these zones cells of 0.0"));
+    EXPECT_TRUE(contains(text, "1 error"));
+}
+
 TEST_F(CaseError, criteria_are_refused)
 {
     EXPECT_TRUE(contains(complaint(std::string(valid_case) + "[[refine.criterion]]\nfield = \"damage\"\n"),
