@@ -64,12 +64,13 @@ bool check_particle_count(Draft& draft, const refine::Scene& scene)
     const std::vector<Real> on_level = refine::estimated_particles(scene);
     const Real count = std::accumulate(on_level.begin(), on_level.end(), Real(0));
     if (count <= refine::most_particles) return true;
-    const Real cell = draft.problem.grid.cell * std::cbrt(count / refine::most_particles);
+    // A little more, for what the estimate leaves out and the digits below.
+    const Real cell = 1.1 * draft.problem.grid.cell * std::cbrt(count / refine::most_particles);
     const Node* value = draft.root.find("grid")->find("cell");
     draft.diagnostics.error(value ? value->place : draft.grid.place,
                             fmt::format("cells of {} mm are about {:.1e} particles: a run numbers {:.1e} at most",
                                         draft.problem.grid.cell, count, refine::most_particles),
-                            fmt::format("lengths are in mm; with these zones cells of {:.1g} mm or more", cell));
+                            fmt::format("lengths are in mm; with these zones cells of {:.2g} mm or more", cell));
     return false;
 }
 
