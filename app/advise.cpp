@@ -5,6 +5,8 @@
 #include "app/median.h"
 #include "core/error.h"
 #include "io/case.h"
+#include "refine/estimate.h"
+#include "solver/lattice.h"
 
 #include <fmt/format.h>
 
@@ -113,17 +115,6 @@ struct Fit
     Real finest = 0, cost = 0;
 };
 
-/// Cells of edge `cell` that the boxes around the bodies hold, not more than exist if bodies overlap.
-Real cells_around(const solver::Problem& problem, Real cell)
-{
-    Real cells = 0;
-    for (const solver::Body& body : problem.bodies) {
-        const geometry::Bounds bounds = body.shape.bounds();
-        cells += ((bounds.upper - bounds.lower) / cell).array().max(1).prod();
-    }
-    return cells;
-}
-
 /// The coarsest grid of the case whose finest cell is at most `finest`: the case's own cell times 4, 2, 1, 1/2, 1/3,
 /// ..., so that planes and bodies that fitted its lattice still do.
 /// @param counted  grids that were counted before, by grid_sections: methods share them
@@ -137,7 +128,7 @@ std::optional<Fit> fitting_grid(const AdviceRequest& request, const solver::Prob
     for (const Real part : parts) {
         const Real cell = problem.grid.cell * part;
         if (cell / several > finest * (1 + 1e-6)) continue;
-        if (cells_around(problem, cell) > most_cells) return {};
+        if (refine::cells_around(solver::scene_of(problem).bodies, cell) > most_cells) return {};
         Fit fit{method_overrides(method, cell, problem), cell / several, 0};
         std::vector<std::string> overrides = request.overrides;
         overrides.insert(overrides.end(), fit.set.begin(), fit.set.end());

@@ -19,6 +19,8 @@
 #include "io/probe_file.h"
 #include "io/process_memory.h"
 #include "io/vdb_file.h"
+#include "refine/estimate.h"
+#include "solver/lattice.h"
 #include "solver/observe.h"
 #include "transfer/kernel_level.h"
 
@@ -139,6 +141,7 @@ std::string finish_text(solver::Finish finish)
 
 void warn_of_memory(const solver::Problem& problem, Log& log)
 {
+    if (!refine::may_exceed(solver::scene_of(problem), 1e6)) return; // 0.4 GB, which every machine has
     const Real needed = memory_of(estimate_particles(problem)), available = static_cast<Real>(io::machine_bytes());
     if (needed > available)
         log.line(fmt::format("warning: the run needs about {} of memory, this machine has {} (cleave check tells more)",

@@ -172,8 +172,10 @@ ParticleCount estimate_particles(const solver::Problem& problem)
 // Seed one slab of level-0 cells after the other, count, forget.
 ParticleCount count_particles(const solver::Problem& problem)
 {
-    const ParticleCount estimate = estimate_particles(problem);
-    if (static_cast<Real>(estimate.total_particles()) > countable) return estimate;
+    if (refine::may_exceed(solver::scene_of(problem), countable)) {
+        const ParticleCount estimate = estimate_particles(problem);
+        if (static_cast<Real>(estimate.total_particles()) > countable) return estimate;
+    }
     const refine::Lattice lattice = solver::lattice_of(problem.grid);
     const grid::Refinement refinement = refine::refinement_of(problem.zones, lattice, problem.bounds());
     const int per_axis = solver::particles_per_axis(problem.grid);

@@ -61,13 +61,13 @@ void check_particles_per_cell(Draft& draft)
 /// @return whether a run could number them
 bool check_particle_count(Draft& draft, const refine::Scene& scene)
 {
+    if (!refine::may_exceed(scene, refine::most_particles)) return true;
     const std::vector<Real> on_level = refine::estimated_particles(scene);
     const Real count = std::accumulate(on_level.begin(), on_level.end(), Real(0));
     if (count <= refine::most_particles) return true;
     // A little more, for what the estimate leaves out and the digits below.
     const Real cell = 1.1 * draft.problem.grid.cell * std::cbrt(count / refine::most_particles);
-    const Node* value = draft.root.find("grid")->find("cell");
-    draft.diagnostics.error(value ? value->place : draft.grid.place,
+    draft.diagnostics.error(draft.root.find("grid")->find("cell")->place,
                             fmt::format("cells of {} mm are about {:.1e} particles: a run numbers {:.1e} at most",
                                         draft.problem.grid.cell, count, refine::most_particles),
                             fmt::format("lengths are in mm; with these zones cells of {:.2g} mm or more", cell));

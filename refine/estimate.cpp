@@ -4,6 +4,22 @@
 
 namespace refine
 {
+Real cells_around(const std::vector<geometry::Shape>& bodies, Real cell)
+{
+    Real cells = 0;
+    for (const geometry::Shape& body : bodies) {
+        const geometry::Bounds bounds = body.bounds();
+        cells += ((bounds.upper - bounds.lower) / cell).array().max(1).prod();
+    }
+    return cells;
+}
+
+bool may_exceed(const Scene& scene, Real particles)
+{
+    const Real finest = scene.lattice.spacing0 / static_cast<Real>(1 << (scene.lattice.levels - 1));
+    return cells_around(scene.bodies, finest) * std::pow(scene.per_axis, 3) > particles;
+}
+
 std::vector<Real> estimated_particles(const Scene& scene)
 {
     constexpr int samples = 32;
