@@ -80,6 +80,7 @@ constexpr double box_nodes = 15.6, box_rows = 6.25, box_planes = 2.5;
 
 /// Gather and scatter of boxes work on lines of 8 numbers, whether all of them are wanted or not: operations per node,
 /// row and plane in transfer/gimp_lines.h, a multiply-add is two. Weights take 90 each time; the law is that of points.
+/// This is the count of the sums box by box; boxes that are read together (gimp_shared.h) take less.
 double box_flops(const BenchCase& scheme)
 {
     const auto walk = [](double node, double row, double plane) {

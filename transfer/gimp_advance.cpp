@@ -17,10 +17,8 @@ template <Transfer T, StressUpdate S, bool Plain>
     constexpr BoxRead read = S == StressUpdate::musl ? BoxRead::change_slopes
                              : T == Transfer::apic   ? BoxRead::affine
                                                      : BoxRead::velocity_slopes;
-    BoxWeights weights;
-    box_weights<read == BoxRead::affine>(frame, particles, p, count, weights);
     BoxChunk chunk;
-    gather_boxes<read>(weights, count, source, chunk);
+    gather_boxes<read>(frame, particles, p, count, source, chunk);
     const auto x = load_all<core::Vec<Lanes>>(particles.position, p, count);
     k.here = present<Formulation::updated, Plain>(Visitors::everyone, particles, p, count);
     const core::Vec<Lanes> velocity{

@@ -6,15 +6,6 @@
 
 namespace transfer
 {
-/// What a chunk of boxes has read, one array entry per particle.
-struct BoxChunk
-{
-    static constexpr int lanes = BoxWeights::lanes;
-    alignas(64) Real value[8][lanes];    // quantities of grid::NodeMotion; affine: the velocity in the first three
-    alignas(64) Real gradient[9][lanes]; // 1/ms, of the velocity or its change, row by row
-    alignas(64) Real affine[9][lanes];   // 1/ms, C of APIC
-};
-
 /// The leaf whose particles gather, and the cut boxes among them. Boxes are asked for in storage order.
 struct BoxSource
 {
@@ -51,10 +42,10 @@ template <BoxRead Read>
 }
 } // namespace detail
 
-/// Read the first `count` boxes of `weights`. A box that the map does not serve is the source's next cut one.
+/// Read the first `count` boxes of `weights` one by one. A box that the map does not serve is the source's next cut
+/// one.
 template <BoxRead Read>
-[[gnu::always_inline]] inline void gather_boxes(const BoxWeights& weights, int count, BoxSource& source,
-                                                BoxChunk& chunk)
+[[gnu::always_inline]] inline void gather_each(const BoxWeights& weights, int count, BoxSource& source, BoxChunk& chunk)
 {
     constexpr bool affine = Read == BoxRead::affine;
     NodeLine line[BoxChunk::lanes][box_lines(Read)];
@@ -106,6 +97,35 @@ template <BoxRead Read>
                     for (int i = 0; i < count; ++i) moment.v[i] += hanging[i](a, b);
                 (moment / Lanes::load(inertia[b])).store(chunk.affine[3 * a + b]);
             }
+}
+
+template <BoxRead Read>
+[[gnu::always_inline]] inline void gather_together(const SharedBoxes& shared, const BoxSource& source, BoxChunk& chunk)
+{
+    shared_gathers<Read>[static_cast<std::size_t>(shared.code)](shared, source.node + shared.node, chunk);
+}
+
+/// Boxes that do not share their cells; out of the way, so that the others keep their numbers in registers.
+template <BoxRead Read>
+[[gnu::noinline]] void gather_apart(const BoxFrame& frame, const particles::Particles& particles, std::size_t begin,
+                                    int count, BoxSource& source, BoxChunk& chunk)
+{
+    BoxWeights weights;
+    box_weights<Read == BoxRead::affine>(frame, box_axes(frame, particles, begin, count), weights);
+    gather_each<Read>(weights, count, source, chunk);
+}
+
+/// Read the boxes of the particles [begin, begin + count).
+template <BoxRead Read>
+[[gnu::always_inline]] inline void gather_boxes(const BoxFrame& frame, const particles::Particles& particles,
+                                                std::size_t begin, int count, BoxSource& source, BoxChunk& chunk)
+{
+    SharedBoxes shared;
+    if (share_cells<Read == BoxRead::affine>(source.map, frame, box_axes(frame, particles, begin, count), particles,
+                                             begin, count, shared))
+        gather_together<Read>(shared, source, chunk);
+    else
+        gather_apart<Read>(frame, particles, begin, count, source, chunk);
 }
 
 [[gnu::always_inline]] inline core::Mat<Lanes> matrix_lanes(const Real (&rows)[9][BoxChunk::lanes])

@@ -9,21 +9,12 @@
 /// A whole box has two or three nodes per axis and weights from a BoxWeights; a part of a cut one has two.
 #pragma once
 
-#include "transfer/gimp_weights.h"
+#include "transfer/gimp_shared.h"
 #include "transfer/line_lanes.h"
 #include "transfer/node_line.h"
 
 namespace transfer
 {
-/// What is read off the grid besides the lanes of grid::NodeMotion.
-enum class BoxRead
-{
-    values,          // nothing
-    velocity_slopes, // slopes of the velocity
-    change_slopes,   // slopes of its change
-    affine,          // slopes and moments of the velocity, instead of its change
-};
-
 /// Lines that a box reads: the values, then
 ///     slopes:  along x (of all lanes), and along y in the lower, along z in the upper half
 ///     affine:  one for each axis, slopes in the lower half, first moments sum w (x_i - x_p) v in the upper one

@@ -9,13 +9,26 @@ namespace transfer
 {
 namespace
 {
+/// What the boxes of the particles [begin, begin + count) read, and their weights.
+template <BoxRead Read>
+void read_boxes(const BoxFrame& frame, const particles::Particles& particles, std::size_t begin, int count,
+                BoxSource& source, BoxChunk& chunk, BoxWeights& weights)
+{
+    constexpr bool affine = Read == BoxRead::affine;
+    const BoxAxes axes = box_axes(frame, particles, begin, count);
+    box_weights<affine>(frame, axes, weights);
+    SharedBoxes shared;
+    if (share_cells<affine>(source.map, frame, axes, particles, begin, count, shared))
+        gather_together<Read>(shared, source, chunk);
+    else
+        gather_each<Read>(weights, count, source, chunk);
+}
+
 /// New velocities (and affine matrices) of the particles [begin, begin + count).
 template <Transfer T>
-void update_velocity(const PassOptions& options, const BoxWeights& weights, std::size_t begin, int count,
-                     BoxSource& source, particles::Particles& particles)
+void update_velocity(const PassOptions& options, const BoxChunk& chunk, std::size_t begin, int count,
+                     particles::Particles& particles)
 {
-    BoxChunk chunk;
-    gather_boxes<T == Transfer::apic ? BoxRead::affine : BoxRead::values>(weights, count, source, chunk);
     const Lanes pic(options.pic_fraction);
     for (std::size_t a = 0; a < 3; ++a) {
         const Lanes grid_velocity = Lanes::load(chunk.value[a]);
@@ -48,9 +61,11 @@ void remap_leaf(const PassOptions& options, std::size_t leaf, particles::Particl
     const std::size_t end = levels.cell_start[(leaf + 1) * grid::leaf_cells];
     for (std::size_t p = levels.cell_start[leaf * grid::leaf_cells]; p < end; p += Lanes::lanes) {
         const int count = static_cast<int>(std::min<std::size_t>(Lanes::lanes, end - p));
+        BoxChunk chunk;
         BoxWeights weights;
-        box_weights<T == Transfer::apic>(frame, particles, p, count, weights);
-        update_velocity<T>(options, weights, p, count, source, particles);
+        read_boxes<T == Transfer::apic ? BoxRead::affine : BoxRead::values>(frame, particles, p, count, source, chunk,
+                                                                            weights);
+        update_velocity<T>(options, chunk, p, count, particles);
         BoxRows<T> rows(BoxGive::momentum);
         stage_momentum<T>(particles, p, count, load(particles.mass, p, count),
                           load_all<core::Vec<Lanes>>(particles.velocity, p, count), rows);

@@ -50,7 +50,7 @@ template <Transfer T>
                                              std::size_t begin, int count)
 {
     BoxWeights weights;
-    box_weights<T == Transfer::apic>(target.frame, particles, begin, count, weights);
+    box_weights<T == Transfer::apic>(target.frame, box_axes(target.frame, particles, begin, count), weights);
     const BoxStage<T> stage(gifts_of<T>(given, averaged, mean_pressure, particles, begin, count));
     add_boxes<T, BoxGive::all>(target.map, weights, count, stage, target.tile, [&](int i) {
         keep_cut(target.cutter, particles, begin + static_cast<std::size_t>(i), stage.gift(i), target.cut);

@@ -37,6 +37,11 @@ struct NodeLine
         for (int n = 0; n < pieces; ++n) part[n] += b.part[n];
         return *this;
     }
+    [[gnu::always_inline]] NodeLine& operator-=(const NodeLine& b)
+    {
+        for (int n = 0; n < pieces; ++n) part[n] -= b.part[n];
+        return *this;
+    }
     [[gnu::always_inline]] NodeLine& operator*=(const NodeLine& b)
     {
         for (int n = 0; n < pieces; ++n) part[n] *= b.part[n];

@@ -44,6 +44,18 @@ Scene random_boxes(const support::Topology& topology, const transfer::PassOption
     return scene;
 }
 
+/// Particles in order, moved by so many spacings of the finest cells: the boxes of a cell mostly reach the same nodes.
+Scene moved_boxes(const support::Topology& topology, const transfer::PassOptions& options, const Vec3& shift)
+{
+    Scene scene = support::scene_of(topology, options, {support::soft_elastic()}, support::Layout::regular);
+    support::randomise_state(61, scene);
+    const Real unit = scene.levels.spacing(scene.levels.count - 1);
+    for (std::size_t a = 0; a < 3; ++a)
+        for (Real& x : scene.particles.position[a]) x += shift[static_cast<int>(a)] * unit;
+    support::order(scene);
+    return scene;
+}
+
 /// A node seen from a particle; image nodes beyond walls lie where they are seen.
 struct NodeView
 {
@@ -85,7 +97,8 @@ std::vector<NodeView> nodes_of_whole_box(const Scene& scene, const transfer::Rea
                                          std::size_t p)
 {
     transfer::BoxWeights w;
-    transfer::box_weights<true>(transfer::box_frame(scene.options, scene.levels, home), scene.particles, p, 1, w);
+    const transfer::BoxFrame frame = transfer::box_frame(scene.options, scene.levels, home);
+    transfer::box_weights<true>(frame, transfer::box_axes(frame, scene.particles, p, 1), w);
     if (!transfer::served(map, w, 0)) return {};
     struct Axis
     {
@@ -235,6 +248,61 @@ TEST(Gimp, particles_read_the_plain_basis)
         }
 }
 
+// Boxes that share their cells are read together, by differences of nodes; all that is read, in every scheme.
+TEST(Gimp, boxes_that_move_together_read_the_plain_basis)
+{
+    struct Scheme
+    {
+        Transfer transfer;
+        StressUpdate update;
+    };
+    for (const support::Topology& topology : support::topologies())
+        for (const Scheme& scheme :
+             {Scheme{Transfer::flip, StressUpdate::usl}, Scheme{Transfer::flip, StressUpdate::musl},
+              Scheme{Transfer::apic, StressUpdate::usl}})
+            for (const Vec3& shift :
+                 {Vec3(0, 0, 0), Vec3(0.1, 0.05, 0.12), Vec3(-0.1, 0, 0.2), Vec3(-0.2, -0.1, -0.05)}) {
+                const Scene scene = moved_boxes(topology, boxes(scheme.transfer, scheme.update), shift);
+                Scene after = scene;
+                after.options.dt = 1e-2;
+                support::Random random(67);
+                support::prescribe_motion([&](const Vec3&) { return random.vector(-1, 1); }, after.levels);
+                for (grid::NodeMotion& motion : after.levels.motion)
+                    for (Real& change : motion.change) change *= -0.5;
+                const grid::Levels levels = after.levels;
+                transfer::advance_and_scatter(after.options, after.laws, after.strays, after.particles, after.levels,
+                                              after.leaf_work);
+                for (std::size_t p = 0; p < scene.particles.size(); ++p) {
+                    Vec3 velocity = Vec3::Zero();
+                    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero(), moment = gradient;
+                    for (const support::Share& share : support::basis_of(scene, p)) {
+                        const auto& node = levels.motions(static_cast<std::size_t>(share.node.leaf))[share.node.node];
+                        velocity += share.weight * support::vector_of(node.velocity);
+                        gradient += support::vector_of(node.velocity) * share.slope.transpose();
+                        moment += share.weight * support::vector_of(node.velocity) *
+                                  (share.position - support::vector_of(scene.particles.position, p)).transpose();
+                    }
+                    const Vec3 old = support::vector_of(scene.particles.velocity, p);
+                    const Vec3 moved = support::vector_of(after.particles.position, p) -
+                                       support::vector_of(scene.particles.position, p);
+                    ASSERT_LT((moved / after.options.dt - velocity).norm(), 1e-11) << topology;
+                    const Vec3 wanted = scheme.transfer == Transfer::apic     ? velocity
+                                        : scheme.update == StressUpdate::musl ? old
+                                                                              : Vec3(old - 0.5 * velocity);
+                    ASSERT_LT((support::vector_of(after.particles.velocity, p) - wanted).norm(), 1e-12) << topology;
+                    if (scheme.transfer == Transfer::apic)
+                        ASSERT_LT(
+                            (support::matrix_of(after.particles.affine, p) * support::affine_inertia(scene, p) - moment)
+                                .norm(),
+                            1e-13)
+                            << topology;
+                    const Real strained = scheme.update == StressUpdate::musl ? -0.5 : 1;
+                    const Real half = strained * after.options.dt * gradient.trace() / 2;
+                    ASSERT_NEAR(after.particles.volume_ratio[p] * (1 - half), 1 + half, 1e-12) << topology;
+                }
+            }
+}
+
 TEST(Gimp, nodes_get_the_plain_sums)
 {
     for (const support::Topology& topology : support::topologies())
@@ -351,11 +419,9 @@ void step(Scene& scene, Real dt)
     ASSERT_FALSE(scene.strays.outside);
 }
 
-/// Random particles at x > origin, their mirror images on the other side as well if `whole`.
-Scene mirrored_block(const support::Topology& topology, const transfer::PassOptions& options, bool whole)
+/// The particles at x > origin of a scene, their mirror images on the other side as well if `whole`.
+Scene mirrored(Scene scene, bool whole)
 {
-    Scene scene = support::scene_of(topology, options, {support::soft_elastic()}, support::Layout::random);
-    support::randomise_state(66, scene);
     particles::Particles& p = scene.particles;
     std::vector<std::uint32_t> right;
     const Real wall = scene.levels.origin[0];
@@ -385,9 +451,17 @@ Scene mirrored_block(const support::Topology& topology, const transfer::PassOpti
     support::order(scene);
     return scene;
 }
+
+Scene mirrored_block(const support::Topology& topology, const transfer::PassOptions& options, bool whole)
+{
+    Scene scene = support::scene_of(topology, options, {support::soft_elastic()}, support::Layout::random);
+    support::randomise_state(66, scene);
+    return mirrored(std::move(scene), whole);
+}
 } // namespace
 
-// A symmetric block and its half with a symmetry plane, boxes reaching through it.
+// A symmetric block and its half with a symmetry plane, boxes reaching through it: random ones, and such that share
+// their cells among the images.
 TEST(Gimp, half_a_block_moves_like_the_whole_one)
 {
     const support::Topology coarse = support::topology_of("one level", 1, 2, [](const auto&) { return false; });
@@ -395,29 +469,35 @@ TEST(Gimp, half_a_block_moves_like_the_whole_one)
         "two levels", 2, 2, [](const auto& key) { return key.cell[1] < 0; }); // the interface meets the wall
     for (const support::Topology& topology : {coarse, fine})
         for (const Transfer transfer : {Transfer::flip, Transfer::apic})
-            for (const StressUpdate update : {StressUpdate::usl, StressUpdate::musl}) {
-                transfer::PassOptions options = boxes(transfer, update);
-                Scene whole = mirrored_block(topology, options, true);
-                options.walls = {{0, 0}};
-                Scene half = mirrored_block(topology, options, false);
-                for (int n = 0; n < 5; ++n) {
-                    step(whole, 1e-6);
-                    step(half, 1e-6);
+            for (const StressUpdate update : {StressUpdate::usl, StressUpdate::musl})
+                for (const bool random : {true, false}) {
+                    transfer::PassOptions options = boxes(transfer, update);
+                    const auto block = [&](bool whole) {
+                        return random ? mirrored_block(topology, options, whole)
+                                      : mirrored(moved_boxes(topology, options, {-0.1, 0.05, 0.12}), whole);
+                    };
+                    Scene whole = block(true);
+                    options.walls = {{0, 0}};
+                    Scene half = block(false);
+                    for (int n = 0; n < 5; ++n) {
+                        step(whole, 1e-6);
+                        step(half, 1e-6);
+                    }
+                    std::vector<std::size_t> place(whole.particles.size());
+                    for (std::size_t p = 0; p < place.size(); ++p) place[whole.particles.id[p]] = p;
+                    for (std::size_t p = 0; p < half.particles.size(); ++p) {
+                        const std::size_t q = place[half.particles.id[p]];
+                        ASSERT_LT((support::vector_of(half.particles.velocity, p) -
+                                   support::vector_of(whole.particles.velocity, q))
+                                      .norm(),
+                                  1e-11)
+                            << topology;
+                        ASSERT_LT(
+                            (support::stress_of(half.particles, p) - support::stress_of(whole.particles, q)).norm(),
+                            1e-9)
+                            << topology;
+                    }
                 }
-                std::vector<std::size_t> place(whole.particles.size());
-                for (std::size_t p = 0; p < place.size(); ++p) place[whole.particles.id[p]] = p;
-                for (std::size_t p = 0; p < half.particles.size(); ++p) {
-                    const std::size_t q = place[half.particles.id[p]];
-                    ASSERT_LT((support::vector_of(half.particles.velocity, p) -
-                               support::vector_of(whole.particles.velocity, q))
-                                  .norm(),
-                              1e-11)
-                        << topology;
-                    ASSERT_LT((support::stress_of(half.particles, p) - support::stress_of(whole.particles, q)).norm(),
-                              1e-9)
-                        << topology;
-                }
-            }
 }
 
 TEST(Gimp, weights_in_closed_form_reach_through_walls)
