@@ -7,6 +7,7 @@
 #include "material/rotation.h"
 #include "material/von_mises.h"
 #include "particles/tensors.h"
+#include "transfer/flip.h"
 #include "transfer/given.h"
 #include "transfer/middle_gradient.h"
 #include "transfer/passes.h"
@@ -104,10 +105,8 @@ carry(const PassOptions& options, const LawTable& laws, const CellFrame& frame, 
             const auto axis = static_cast<std::size_t>(a);
             const Lanes old = load(particles.velocity[axis], begin, count);
             Lanes fresh = grid_velocity[a];
-            if constexpr (T == Transfer::flip) {
-                fresh = old + change(a);
-                if (options.pic_fraction > 0) fresh += Lanes(options.pic_fraction) * (grid_velocity[a] - fresh);
-            }
+            if constexpr (T == Transfer::flip)
+                fresh = flip_velocity(options.pic_fraction, old, change(a), grid_velocity[a]);
             given.velocity[a] = core::select(k.here, fresh, old);
             store(given.velocity[a], particles.velocity[axis], begin, count);
         }

@@ -1,4 +1,5 @@
 #include "core/parallel.h"
+#include "transfer/flip.h"
 #include "transfer/gimp_gather.h"
 #include "transfer/gimp_momentum.h"
 #include "transfer/gimp_passes.h"
@@ -29,13 +30,13 @@ template <Transfer T>
 void update_velocity(const PassOptions& options, const BoxChunk& chunk, std::size_t begin, int count,
                      particles::Particles& particles)
 {
-    const Lanes pic(options.pic_fraction);
     for (std::size_t a = 0; a < 3; ++a) {
         const Lanes grid_velocity = Lanes::load(chunk.value[a]);
         Lanes fresh = grid_velocity;
         if constexpr (T == Transfer::flip) {
-            fresh = load(particles.velocity[a], begin, count) + Lanes::load(chunk.value[change_column + a]);
-            if (options.pic_fraction > 0) fresh += pic * (grid_velocity - fresh);
+            const Lanes old = load(particles.velocity[a], begin, count);
+            fresh =
+                flip_velocity(options.pic_fraction, old, Lanes::load(chunk.value[change_column + a]), grid_velocity);
         }
         store(fresh, particles.velocity[a], begin, count);
     }

@@ -126,7 +126,7 @@ template <int N>
     if constexpr (N == 3) *n2 -= n1;
 }
 
-/// first + a c[0] + b c[2], or without the last of two nodes.
+/// a c[0] + b c[2]; of two nodes the first term.
 template <int N>
 [[gnu::always_inline]] inline Lanes sum_of(Lanes a, Lanes b, const Lanes* c)
 {

@@ -1,6 +1,7 @@
 #include "core/parallel.h"
 #include "grid/walls.h"
 #include "transfer/each_stray.h"
+#include "transfer/flip.h"
 #include "transfer/gimp_passes.h"
 #include "transfer/interface_affine.h"
 #include "transfer/passes.h"
@@ -30,8 +31,7 @@ remapped(const PassOptions& options, const CellFrame& frame, const CellField& fi
         const Lanes grid_velocity = value_and_slopes(field, velocity_column + a, at, slope[0], slope[1], slope[2]);
         Lanes fresh = grid_velocity;
         if constexpr (T == Transfer::flip) {
-            fresh = old + value(field, change_column + a, at);
-            if (options.pic_fraction > 0) fresh += Lanes(options.pic_fraction) * (grid_velocity - fresh);
+            fresh = flip_velocity(options.pic_fraction, old, value(field, change_column + a, at), grid_velocity);
         } else {
             for (int b = 0; b < 3; ++b) affine(a, b) = Lanes(frame.per_spacing) * slope[b];
         }
