@@ -99,6 +99,7 @@ template <BoxRead Read>
             }
 }
 
+/// Read boxes that share their cells.
 template <BoxRead Read>
 [[gnu::always_inline]] inline void gather_together(const SharedBoxes& shared, const BoxSource& source, BoxChunk& chunk)
 {

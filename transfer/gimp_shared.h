@@ -61,7 +61,7 @@ namespace detail
     std::int32_t place[Lanes::lanes];
     store_places(frame, box_axes(frame, particles, begin, count), place);
     bool all = true;
-    for (int i = 0; i < count; ++i) all = all && (map.serves[place[i] >> 3] >> (place[i] & 7) & 1) != 0;
+    for (int i = 0; i < count; ++i) all = all && served(map, place[i]);
     return all;
 }
 
@@ -112,7 +112,7 @@ template <bool Arms>
         shared.node = shared.node * reach_side + (near ? static_cast<int>(local) + 1 : 0);
         shared.code = 2 * shared.code + (core::any(here & (reaches | next)) ? 1 : 0);
     }
-    if (!near || core::any(here & !fits) || (map.serves[shared.node] >> shared.code & 1) == 0) return false;
+    if (!near || core::any(here & !fits) || !served(map, 8 * shared.node + shared.code)) return false;
     return map.mirrors == 0 || detail::each_served(map, frame, particles, begin, count);
 }
 

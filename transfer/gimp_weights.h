@@ -56,10 +56,14 @@ struct BoxWeights
     int code(int i) const { return place[i] & 7; }
 };
 
-/// Does the map serve box i, so that its weights count?
+/// Does the map serve a box of this BoxWeights::place, so that its weights count?
+inline bool served(const ReachMap& map, std::int32_t place)
+{
+    return (map.serves[place >> 3] >> (place & 7) & 1) != 0;
+}
 inline bool served(const ReachMap& map, const BoxWeights& weights, int i)
 {
-    return (map.serves[weights.node(i)] >> weights.code(i) & 1) != 0;
+    return served(map, weights.place[i]);
 }
 
 namespace detail
