@@ -1,4 +1,5 @@
-/// Boxes read velocities off the grid, one by one; lanes of particles are filled from what they read.
+/// Boxes read velocities off the grid: those of a chunk together if they share their cells, else one by one, and lanes
+/// of particles are filled from what they read.
 #pragma once
 
 #include "transfer/gimp_affine.h"
@@ -122,8 +123,8 @@ template <BoxRead Read>
                                                 std::size_t begin, int count, BoxSource& source, BoxChunk& chunk)
 {
     SharedBoxes shared;
-    if (share_cells<Read == BoxRead::affine>(source.map, frame, box_axes(frame, particles, begin, count), particles,
-                                             begin, count, shared))
+    if (share_cells<Read == BoxRead::affine>(source.map, frame, box_axes(frame, particles, begin, count), count,
+                                             shared))
         gather_together<Read>(shared, source, chunk);
     else
         gather_apart<Read>(frame, particles, begin, count, source, chunk);

@@ -19,7 +19,7 @@ void read_boxes(const BoxFrame& frame, const particles::Particles& particles, st
     const BoxAxes axes = box_axes(frame, particles, begin, count);
     box_weights<affine>(frame, axes, weights);
     SharedBoxes shared;
-    if (share_cells<affine>(source.map, frame, axes, particles, begin, count, shared))
+    if (share_cells<affine>(source.map, frame, axes, count, shared))
         gather_together<Read>(shared, source, chunk);
     else
         gather_each<Read>(weights, count, source, chunk);

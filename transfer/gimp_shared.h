@@ -55,11 +55,11 @@ struct SharedBoxes
 namespace detail
 {
 /// Of a mirror image not every box that fits into served cells is served: it must not lie among the images as a whole.
-[[gnu::noinline]] inline bool each_served(const ReachMap& map, const BoxFrame& frame,
-                                          const particles::Particles& particles, std::size_t begin, int count)
+[[gnu::always_inline]] inline bool each_served(const ReachMap& map, const BoxFrame& frame, const BoxAxes& axes,
+                                               int count)
 {
     std::int32_t place[Lanes::lanes];
-    store_places(frame, box_axes(frame, particles, begin, count), place);
+    store_places(frame, axes, place);
     bool all = true;
     for (int i = 0; i < count; ++i) all = all && served(map, place[i]);
     return all;
@@ -85,13 +85,11 @@ template <bool Arms>
 }
 } // namespace detail
 
-/// Do the boxes of the particles [begin, begin + count), which lie at `axes`, lie in the same 2 x 2 x 2 cells, all of
-/// them served? Then `shared` is set.
+/// Do the first `count` boxes lie in the same 2 x 2 x 2 cells, all of them served? Then `shared` is set.
 /// @tparam Arms  also moments (APIC)
 template <bool Arms>
 [[gnu::always_inline]] inline bool share_cells(const ReachMap& map, const BoxFrame& frame, const BoxAxes& axes,
-                                               const particles::Particles& particles, std::size_t begin, int count,
-                                               SharedBoxes& shared)
+                                               int count, SharedBoxes& shared)
 {
     const Lanes one(Real(1)), zero(Real(0));
     const LaneMask here = core::first_lanes<Real, Lanes::lanes>(count);
@@ -113,7 +111,7 @@ template <bool Arms>
         shared.code = 2 * shared.code + (core::any(here & (reaches | next)) ? 1 : 0);
     }
     if (!near || core::any(here & !fits) || !served(map, 8 * shared.node + shared.code)) return false;
-    return map.mirrors == 0 || detail::each_served(map, frame, particles, begin, count);
+    return map.mirrors == 0 || detail::each_served(map, frame, axes, count);
 }
 
 namespace detail

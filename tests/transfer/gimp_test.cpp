@@ -220,6 +220,32 @@ TEST(Gimp, weights_are_a_partition_of_unity_and_linearly_complete)
             }
 }
 
+namespace
+{
+/// What a particle reads of the nodes' velocities, in the plain basis.
+struct PlainRead
+{
+    Vec3 velocity = Vec3::Zero();
+    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero(); // 1/ms
+    Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();   // mm^2/ms, sum w v (x_i - x_p)^T
+};
+
+/// @param levels  reads motion
+PlainRead read_plainly(const Scene& scene, const grid::Levels& levels, std::size_t p)
+{
+    PlainRead read;
+    for (const support::Share& share : support::basis_of(scene, p)) {
+        const auto& node = levels.motions(static_cast<std::size_t>(share.node.leaf))[share.node.node];
+        const Vec3 velocity = support::vector_of(node.velocity);
+        read.velocity += share.weight * velocity;
+        read.gradient += velocity * share.slope.transpose();
+        read.moment +=
+            share.weight * velocity * (share.position - support::vector_of(scene.particles.position, p)).transpose();
+    }
+    return read;
+}
+} // namespace
+
 // Any nodal field, not only a linear one: values and gradients of the particles are those of the plain basis.
 TEST(Gimp, particles_read_the_plain_basis)
 {
@@ -234,15 +260,9 @@ TEST(Gimp, particles_read_the_plain_basis)
             transfer::advance_and_scatter(after.options, after.laws, after.strays, after.particles, after.levels,
                                           after.leaf_work);
             for (std::size_t p = 0; p < scene.particles.size(); ++p) {
-                Vec3 velocity = Vec3::Zero();
-                Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
-                for (const support::Share& share : support::basis_of(scene, p)) {
-                    const auto& node = scene.levels.motions(static_cast<std::size_t>(share.node.leaf))[share.node.node];
-                    velocity += share.weight * support::vector_of(node.velocity);
-                    gradient += support::vector_of(node.velocity) * share.slope.transpose();
-                }
-                ASSERT_LT((support::vector_of(after.particles.velocity, p) - velocity).norm(), 1e-12) << topology;
-                const Real half = gradient.trace() / 2;
+                const PlainRead read = read_plainly(scene, scene.levels, p);
+                ASSERT_LT((support::vector_of(after.particles.velocity, p) - read.velocity).norm(), 1e-12) << topology;
+                const Real half = read.gradient.trace() / 2;
                 ASSERT_NEAR(after.particles.volume_ratio[p] * (1 - half), 1 + half, 1e-10) << topology;
             }
         }
@@ -273,31 +293,23 @@ TEST(Gimp, boxes_that_move_together_read_the_plain_basis)
                 transfer::advance_and_scatter(after.options, after.laws, after.strays, after.particles, after.levels,
                                               after.leaf_work);
                 for (std::size_t p = 0; p < scene.particles.size(); ++p) {
-                    Vec3 velocity = Vec3::Zero();
-                    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero(), moment = gradient;
-                    for (const support::Share& share : support::basis_of(scene, p)) {
-                        const auto& node = levels.motions(static_cast<std::size_t>(share.node.leaf))[share.node.node];
-                        velocity += share.weight * support::vector_of(node.velocity);
-                        gradient += support::vector_of(node.velocity) * share.slope.transpose();
-                        moment += share.weight * support::vector_of(node.velocity) *
-                                  (share.position - support::vector_of(scene.particles.position, p)).transpose();
-                    }
+                    const PlainRead read = read_plainly(scene, levels, p);
                     const Vec3 old = support::vector_of(scene.particles.velocity, p);
                     const Vec3 moved = support::vector_of(after.particles.position, p) -
                                        support::vector_of(scene.particles.position, p);
-                    ASSERT_LT((moved / after.options.dt - velocity).norm(), 1e-11) << topology;
-                    const Vec3 wanted = scheme.transfer == Transfer::apic     ? velocity
+                    ASSERT_LT((moved / after.options.dt - read.velocity).norm(), 1e-11) << topology;
+                    const Vec3 wanted = scheme.transfer == Transfer::apic     ? read.velocity
                                         : scheme.update == StressUpdate::musl ? old
-                                                                              : Vec3(old - 0.5 * velocity);
+                                                                              : Vec3(old - 0.5 * read.velocity);
                     ASSERT_LT((support::vector_of(after.particles.velocity, p) - wanted).norm(), 1e-12) << topology;
                     if (scheme.transfer == Transfer::apic)
-                        ASSERT_LT(
-                            (support::matrix_of(after.particles.affine, p) * support::affine_inertia(scene, p) - moment)
-                                .norm(),
-                            1e-13)
+                        ASSERT_LT((support::matrix_of(after.particles.affine, p) * support::affine_inertia(scene, p) -
+                                   read.moment)
+                                      .norm(),
+                                  1e-13)
                             << topology;
                     const Real strained = scheme.update == StressUpdate::musl ? -0.5 : 1;
-                    const Real half = strained * after.options.dt * gradient.trace() / 2;
+                    const Real half = strained * after.options.dt * read.gradient.trace() / 2;
                     ASSERT_NEAR(after.particles.volume_ratio[p] * (1 - half), 1 + half, 1e-12) << topology;
                 }
             }
