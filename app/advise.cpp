@@ -137,7 +137,7 @@ std::optional<Fit> fitting_grid(const AdviceRequest& request, const solver::Prob
             const auto [count, is_new] = counted.try_emplace(grid_sections(fitted.resolved));
             if (is_new) count->second = count_particles(fitted.problem);
             const Forecast f = forecast(fitted.problem, count->second);
-            fit.cost = f.steps * static_cast<Real>(f.total_particles());
+            fit.cost = f.particle_steps;
             return fit;
         } catch (const core::InputError&) {
             continue; // such as a symmetry plane between the nodes of a coarser lattice

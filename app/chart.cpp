@@ -1,12 +1,13 @@
 #include "app/chart.h"
 
+#include "app/choice_name.h"
 #include "app/exit_code.h"
 #include "app/scene_features.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/case.h"
 #include "io/diagnostics.h"
-#include "io/keys.h"
+#include "solver/measures.h"
 
 #include <fmt/format.h>
 
@@ -37,29 +38,10 @@ void add(Combination& combination, const io::Axis& axis, const io::Setting& sett
     if (!axis.resolution) append(combination.scheme, combination.scheme_set);
 }
 
-std::vector<Combination> combinations(const std::vector<io::Axis>& product)
-{
-    std::vector<Combination> all{{}};
-    for (const io::Axis& axis : product) {
-        std::vector<Combination> longer;
-        for (const Combination& begun : all)
-            for (const io::Setting& setting : axis.settings) add(longer.emplace_back(begun), axis, setting);
-        all = std::move(longer);
-    }
-    return all;
-}
-
 std::vector<std::string> with(std::vector<std::string> set, const std::vector<std::string>& more)
 {
     set.insert(set.end(), more.begin(), more.end());
     return set;
-}
-
-/// Name of an enumerator as in the case file.
-template <class Enum>
-std::string choice_name(std::string_view key, Enum value)
-{
-    return io::choices_of(io::key_of("numerics", key)).at(static_cast<std::size_t>(value));
 }
 
 void describe(const io::Scene& scene, const solver::Problem& problem, io::ChartRow& row)
@@ -92,6 +74,19 @@ void describe_scene(const io::Scene& scene, const solver::Problem& problem, io::
     row.length_mm = scene.length.value_or(features.length);
 }
 
+/// Complain now about a result that no run will have, not after a night.
+void check_measure(const io::Scene& scene, const std::string& path, const solver::Problem& problem)
+{
+    std::vector<std::string> known;
+    for (const std::string& name : solver::measure_names(problem)) known.push_back("measures." + name);
+    for (const solver::Quantity& quantity : problem.quantities)
+        if (quantity.reference) known.push_back("errors." + quantity.name);
+    const bool of_these = path.starts_with("measures.") || path.starts_with("errors.");
+    if (!of_these || std::find(known.begin(), known.end(), path) != known.end()) return;
+    throw core::InputError(fmt::format("scene '{}': its runs have no number '{}'{}\nnumbers: {}", scene.name, path,
+                                       io::nearest_hint(path, known, "; "), io::joined(known)));
+}
+
 /// First line of a complaint without its place: long enough to see what is meant.
 std::string first_complaint(const std::string& text)
 {
@@ -104,7 +99,7 @@ void plan_scene(const io::Scene& scene, std::size_t number, const fs::path& dire
 {
     std::vector<Combination> all{{"default", "default", {}, {}}};
     for (const std::vector<io::Axis>& product : scene.products)
-        for (Combination& one : combinations(product)) {
+        for (Combination& one : io::combinations<Combination>(product, add)) {
             if (one.label.empty()) continue;
             if (one.scheme.empty()) one.scheme = "default";
             all.push_back(std::move(one));
@@ -129,17 +124,14 @@ void plan_scene(const io::Scene& scene, std::size_t number, const fs::path& dire
     if (default_case.empty())
         throw core::InputError(fmt::format("scene '{}' cannot be run:\n{}", scene.name, runs.front().not_applicable));
     const solver::Problem as_it_is = runs.front().problem;
+    check_measure(scene, scene.measure, as_it_is);
+    if (scene.stable) check_measure(scene, scene.stable->measure, as_it_is);
     std::vector<std::string> seen, directories;
     for (std::size_t i = 0; i < all.size(); ++i) {
         StudyRun& run = runs[i];
         if (!run.resolved.empty() && std::find(seen.begin(), seen.end(), run.resolved) != seen.end()) continue;
         seen.push_back(run.resolved);
-        run.directory = directory / "runs" / directory_name(scene.name) / directory_name(all[i].label);
-        for (int n = 2; std::find(directories.begin(), directories.end(), run.directory.string()) != directories.end();
-             ++n)
-            run.directory =
-                directory / "runs" / directory_name(scene.name) / fmt::format("{}-{}", directory_name(all[i].label), n);
-        directories.push_back(run.directory.string());
+        run.directory = directory / "runs" / directory_name(scene.name) / new_directory_name(all[i].label, directories);
         ChartRun point;
         point.scene = number;
         point.row.scene = scene.name;

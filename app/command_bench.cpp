@@ -1,16 +1,19 @@
 /// `cleave bench`: throughput of the whole step beside what this machine can do at most.
 #include "app/bench_block.h"
+#include "app/choice_name.h"
 #include "app/commands.h"
+#include "app/hardware_threads.h"
+#include "core/error.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace app
@@ -42,44 +45,23 @@ const std::vector<BenchCase>& schemes()
     return list;
 }
 
-const char* name(solver::Formulation f)
-{
-    return f == solver::Formulation::total ? "total" : "updated";
-}
-const char* name(solver::StressUpdate s)
-{
-    return s == solver::StressUpdate::usl ? "usl" : "musl";
-}
-const char* name(solver::Transfer t)
-{
-    return t == solver::Transfer::nodal ? "nodal" : t == solver::Transfer::flip ? "flip" : "apic";
-}
-
-const char* name(solver::Precision p)
-{
-    return p == solver::Precision::mixed ? "mixed" : "f64";
-}
-
-const char* name(solver::Basis b)
-{
-    return b == solver::Basis::gimp ? "gimp" : "trilinear";
-}
-
 bool wanted(const BenchCase& scheme, const Options& options)
 {
-    const auto fits = [](const std::string& word, const char* own) { return word.empty() || word == own; };
-    return fits(options.basis, name(scheme.basis)) && fits(options.formulation, name(scheme.formulation)) &&
-           fits(options.stress_update, name(scheme.stress_update)) && fits(options.transfer, name(scheme.transfer)) &&
-           fits(options.precision, name(scheme.precision));
+    const auto fits = [](const std::string& word, const std::string& own) { return word.empty() || word == own; };
+    return fits(options.basis, choice_name("basis", scheme.basis)) &&
+           fits(options.formulation, choice_name("formulation", scheme.formulation)) &&
+           fits(options.stress_update, choice_name("stress_update", scheme.stress_update)) &&
+           fits(options.transfer, choice_name("transfer", scheme.transfer)) &&
+           fits(options.precision, choice_name("precision", scheme.precision));
 }
 
 nlohmann::json entry(const BenchResult& r)
 {
-    return {{"basis", name(r.scheme.basis)},
-            {"formulation", name(r.scheme.formulation)},
-            {"stress_update", name(r.scheme.stress_update)},
-            {"transfer", name(r.scheme.transfer)},
-            {"precision", name(r.scheme.precision)},
+    return {{"basis", choice_name("basis", r.scheme.basis)},
+            {"formulation", choice_name("formulation", r.scheme.formulation)},
+            {"stress_update", choice_name("stress_update", r.scheme.stress_update)},
+            {"transfer", choice_name("transfer", r.scheme.transfer)},
+            {"precision", choice_name("precision", r.scheme.precision)},
             {"levels", r.scheme.levels},
             {"threads", r.threads},
             {"particles", r.particles},
@@ -93,11 +75,13 @@ nlohmann::json entry(const BenchResult& r)
 
 int bench(const Options& options)
 {
+    if (std::none_of(schemes().begin(), schemes().end(), [&](const BenchCase& one) { return wanted(one, options); }))
+        throw core::InputError(
+            "there is no scheme with all of these; `cleave bench` without them shows which there are");
     std::vector<int> threads = options.threads;
     if (threads.empty()) {
         threads.push_back(1);
-        const int hardware = static_cast<int>(std::thread::hardware_concurrency());
-        if (hardware > 1) threads.push_back(hardware);
+        if (hardware_threads() > 1) threads.push_back(hardware_threads());
     }
     nlohmann::json all = nlohmann::json::array();
     for (const int t : threads) {
@@ -114,10 +98,11 @@ int bench(const Options& options)
             if (options.json) continue;
             fmt::print(
                 "{:<9} {:<9} {:<5} {:<5} {:<5} {:>6} {:>10} {:>10.1f} {:>7.0f} {:>10.0f} {:>6.1f} {:>6.0f} {:>5.0f}%\n",
-                name(r.scheme.basis), name(r.scheme.formulation), name(r.scheme.stress_update), name(r.scheme.transfer),
-                name(r.scheme.precision), r.scheme.levels, r.particles, r.particle_steps_per_s / 1e6,
-                r.bytes_per_particle_step, r.flops_per_particle_step, r.limits.triad_bytes_per_s / 1e9,
-                r.limits.fma_flops_per_s / 1e9, 100 * r.roof_share);
+                choice_name("basis", r.scheme.basis), choice_name("formulation", r.scheme.formulation),
+                choice_name("stress_update", r.scheme.stress_update), choice_name("transfer", r.scheme.transfer),
+                choice_name("precision", r.scheme.precision), r.scheme.levels, r.particles,
+                r.particle_steps_per_s / 1e6, r.bytes_per_particle_step, r.flops_per_particle_step,
+                r.limits.triad_bytes_per_s / 1e9, r.limits.fma_flops_per_s / 1e9, 100 * r.roof_share);
             std::fflush(stdout);
         }
     }

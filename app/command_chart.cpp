@@ -4,7 +4,9 @@
 #include "app/chart_page.h"
 #include "app/commands.h"
 #include "app/exit_code.h"
+#include "app/hardware_threads.h"
 #include "app/leave_one_out.h"
+#include "app/log.h"
 #include "app/shell_word.h"
 #include "app/source_tree.h"
 #include "app/stop_request.h"
@@ -19,7 +21,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
-#include <thread>
 
 namespace app
 {
@@ -52,9 +53,12 @@ Real wanted_error(const std::string& text)
     const double value = std::strtod(text.c_str(), &end);
     const std::string rest = end;
     const bool percent = rest == "%" || rest == " %";
-    if (end == text.c_str() || (!percent && !rest.empty()) || !(value > 0))
-        throw core::InputError(fmt::format("--error '{}': expected a share above 0, such as 2% or 0.02", text));
-    return percent ? value / 100 : value;
+    const double share = percent ? value / 100 : value;
+    if (end == text.c_str() || (!percent && !rest.empty()) || !(share > 0 && share < 1))
+        throw core::InputError(
+            fmt::format("--error '{}': expected a share above 0 and below 1, such as 2% or 0.02{}", text,
+                        rest.empty() && value >= 1 && value < 100 ? fmt::format("; did you mean {}%?", value) : ""));
+    return share;
 }
 
 fs::path suite_file(const Options& options)
@@ -65,27 +69,39 @@ fs::path suite_file(const Options& options)
     throw core::InputError(fmt::format("{} is not beside this program: name a suite", name.string()));
 }
 
+/// @error core::InputError for one that is not there
+void require_scenes(const char* source, const std::vector<std::string>& wanted, const std::vector<std::string>& names)
+{
+    for (const std::string& name : wanted)
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            throw core::InputError(fmt::format("{} has no scene '{}'{}\nscenes: {}", source, name,
+                                               io::nearest_hint(name, names, "; "), io::joined(names)));
+}
+
 void keep_scenes(const std::vector<std::string>& wanted, io::Suite& suite)
 {
     if (wanted.empty()) return;
     std::vector<std::string> names;
     for (const io::Scene& scene : suite.scenes) names.push_back(scene.name);
-    for (const std::string& name : wanted)
-        if (std::find(names.begin(), names.end(), name) == names.end())
-            throw core::InputError(fmt::format("the suite has no scene '{}'{}\nscenes: {}", name,
-                                               io::nearest_hint(name, names, "; "), io::joined(names)));
+    require_scenes("the suite", wanted, names);
     std::erase_if(suite.scenes, [&](const io::Scene& scene) {
         return std::find(wanted.begin(), wanted.end(), scene.name) == wanted.end();
     });
 }
 
+fs::path picture(const io::Scene& scene, const fs::path& directory, const char* kind)
+{
+    return directory / "plots" / (directory_name(scene.name) + kind);
+}
+
 /// Pictures by the Python script; without it or its packages the chart goes on.
-void draw(const fs::path& directory)
+void draw(const Chart& chart, const fs::path& directory)
 {
     const std::optional<fs::path> script = source_file("tools/plot_chart.py");
     const fs::path log = directory / "plots.log", plots = directory / "plots";
     io::write_file(log, "");
-    fs::remove_all(plots); // those of an earlier chart are not this one's
+    for (const io::Scene& scene : chart.suite.scenes)
+        for (const char* kind : {".svg", ".png"}) fs::remove(picture(scene, directory, kind)); // of an earlier chart
     const auto word = [](const fs::path& path) { return shell_word(path.string()); };
     const std::string command = script ? fmt::format("/usr/bin/python3 {} {} -o {} > {} 2>&1", word(*script),
                                                      word(directory / "chart.csv"), word(plots), word(log))
@@ -102,7 +118,7 @@ std::map<std::string, std::string> pictures(const Chart& chart, const fs::path& 
 {
     std::map<std::string, std::string> all;
     for (const io::Scene& scene : chart.suite.scenes)
-        if (const fs::path file = directory / "plots" / (directory_name(scene.name) + ".svg"); fs::exists(file)) {
+        if (const fs::path file = picture(scene, directory, ".svg"); fs::exists(file)) {
             const std::string text = io::read_file(file);
             all[scene.name] = text.substr(std::min(text.find("<svg"), text.size())); // without the XML declaration
         }
@@ -131,33 +147,46 @@ int chart(const Options& options)
     Chart chart = plan_chart(std::move(suite), directory);
     std::size_t left_out = 0;
     for (const ChartRun& point : chart.points) left_out += point.row.status == "not applicable";
-    fmt::print("{} scenes, {} settings that differ, {} not applicable; {} runs at a time, results in {}\n",
-               chart.suite.scenes.size(), chart.points.size() - left_out, left_out, options.study.jobs,
-               directory.string());
-    std::fflush(stdout);
+    say(fmt::format("{} scenes, {} settings that differ, {} not applicable; {} runs at a time, results in {}\n",
+                    chart.suite.scenes.size(), chart.points.size() - left_out, left_out, options.study.jobs,
+                    directory.string()));
     io::make_directory(directory);
     const PoolEnd end = run_study(options.study, chart.runs);
     const std::vector<io::ChartRow> rows = chart_rows(chart);
     io::write_chart(directory / "chart.csv", rows);
-    draw(directory);
+    draw(chart, directory);
     io::write_file(directory / "chart.html",
                    chart_page(chart.suite.title.empty() ? "Error against cost" : chart.suite.title, rows, titles(chart),
                               pictures(chart, directory)));
     io::write_file(directory / "chart.md", chart_markdown(rows));
-    fmt::print("\n{}\n{} and chart.csv, chart.md{}\n", chart_text(rows), (directory / "chart.html").string(),
-               fs::exists(directory / "plots") ? ", plots/" : "");
+    say(fmt::format("\n{}\n{} and chart.csv, chart.md{}\n", chart_text(rows), (directory / "chart.html").string(),
+                    fs::exists(directory / "plots") ? ", plots/" : ""));
     if (end == PoolEnd::all_done) return exit_done;
-    fmt::print("stopped; the same command goes on\n");
+    say("stopped; the same command goes on\n");
     return exit_stopped;
+}
+
+fs::path measured_table(const Options& options)
+{
+    if (!options.from.empty())
+        return fs::is_directory(options.from) ? fs::path(options.from) / "chart.csv" : fs::path(options.from);
+    if (const std::optional<fs::path> found = source_file("docs/accuracy.csv")) return *found;
+    throw core::InputError("docs/accuracy.csv is not beside this program: give --from DIR of a chart");
 }
 
 std::vector<io::ChartRow> measured(const Options& options)
 {
-    if (!options.from.empty())
-        return io::read_chart(fs::is_directory(options.from) ? fs::path(options.from) / "chart.csv"
-                                                             : fs::path(options.from));
-    if (const std::optional<fs::path> found = source_file("docs/accuracy.csv")) return io::read_chart(*found);
-    throw core::InputError("docs/accuracy.csv is not beside this program: give --from DIR of a chart");
+    std::vector<io::ChartRow> rows = io::read_chart(measured_table(options));
+    for (io::ChartRow& row : rows) row.file = here_or_source(row.file).string();
+    return rows;
+}
+
+void check_scenes(const std::vector<std::string>& wanted, const std::vector<io::ChartRow>& rows)
+{
+    std::vector<std::string> names;
+    for (const io::ChartRow& row : rows)
+        if (names.empty() || names.back() != row.scene) names.push_back(row.scene);
+    require_scenes("the chart", wanted, names);
 }
 
 int summary(const Options& options)
@@ -169,7 +198,8 @@ int summary(const Options& options)
 int advice(const Options& options)
 {
     const Real error = wanted_error(options.error);
-    std::vector<io::ChartRow> rows = measured(options);
+    const std::vector<io::ChartRow> rows = measured(options);
+    check_scenes(options.without, rows);
     if (options.leave_one_out) {
         fmt::print("{}", leave_one_out_text(leave_one_out(rows, error), error));
         return exit_done;
@@ -199,7 +229,7 @@ void add_chart(CLI::App& program, Command& chosen)
     CLI::App* command = program.add_subcommand(
         "chart", "Error against cost of every choice on scenes with known answers; advice from what was measured");
     const auto options = std::make_shared<Options>();
-    options->study.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    options->study.jobs = hardware_threads();
     options->study.whole_cost = true;
     command->add_option("SUITE", options->suite,
                         "suite file (default: cases/chart/full.toml, with --quick quick.toml)");

@@ -2,6 +2,7 @@
 #include "app/bytes_text.h"
 #include "app/commands.h"
 #include "app/forecast.h"
+#include "app/hardware_threads.h"
 #include "io/case.h"
 #include "io/process_memory.h"
 #include "solver/stable_time_step.h"
@@ -12,7 +13,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
-#include <thread>
 
 namespace app
 {
@@ -80,8 +80,7 @@ int check(const Options& options)
     for (const std::string& warning : read.warnings) fmt::print("{}\n", warning);
     const solver::Problem& problem = read.problem;
     fmt::print("{}: {}\n", options.file, problem.title.empty() ? "no title" : problem.title);
-    const int hardware = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    print_forecast(problem, forecast(problem), options.threads > 0 ? options.threads : hardware);
+    print_forecast(problem, forecast(problem), options.threads > 0 ? options.threads : hardware_threads());
     fmt::print("levels in the middle plane, '.' void\n{}", level_map(problem, terminal_columns()));
     fmt::print("no errors, {} warning{}\n", read.warnings.size(), read.warnings.size() == 1 ? "" : "s");
     return 0;

@@ -17,6 +17,7 @@ namespace
 int write_new_case(std::string name)
 {
     std::filesystem::path file = name;
+    if (file.stem().empty()) throw core::InputError(fmt::format("'{}' is no name for a case", name));
     if (file.extension() != ".toml") file += ".toml";
     if (std::filesystem::exists(file))
         throw core::FileError(fmt::format("'{}' exists already: choose another name", file.string()));

@@ -25,7 +25,7 @@ int write_report(const std::filesystem::path& directory)
                         io::read_history(directory / "history.csv"),
                         std::filesystem::exists(events) ? io::read_events(events)
                                                         : std::vector<std::vector<std::string>>{},
-                        io::read_last_particle_frame(directory / "particles", report_fields)};
+                        io::read_last_particle_frame(directory / io::particle_files.folder, report_fields)};
     const std::filesystem::path page = directory / "report.html";
     io::write_file(page, report_page(report));
     fmt::print("{}\n", page.string());

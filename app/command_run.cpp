@@ -5,6 +5,7 @@
 #include "app/compiler_name.h"
 #include "app/exit_code.h"
 #include "app/forecast.h"
+#include "app/hardware_threads.h"
 #include "app/log.h"
 #include "app/measure_table.h"
 #include "app/progress.h"
@@ -14,11 +15,12 @@
 #include "app/wall_clock.h"
 #include "app/walltime_option.h"
 #include "core/error.h"
+#include "io/atomic_file.h"
 #include "io/grid_file.h"
 #include "io/particle_file.h"
-#include "io/probe_file.h"
 #include "io/process_memory.h"
 #include "io/vdb_file.h"
+#include "io/vtkhdf_series.h"
 #include "refine/estimate.h"
 #include "solver/lattice.h"
 #include "solver/observe.h"
@@ -30,7 +32,6 @@
 
 #include <chrono>
 #include <memory>
-#include <thread>
 
 namespace app
 {
@@ -44,30 +45,41 @@ struct Run
     solver::State state;
 };
 
+/// A run that was killed before its first checkpoint starts again, so that a job script can always say --resume. But
+/// not over a finished one, or one of another case.
+void require_nothing_to_resume(const RunFiles& files)
+{
+    const auto record = files.directory / "run.json", resolved = files.directory / "resolved.toml";
+    if (!std::filesystem::exists(record)) return;
+    if (std::filesystem::exists(resolved)) io::require_same_case(resolved, io::read_file(resolved), files.of_case);
+    if (io::read_run_record(record).status == "done")
+        throw core::InputError(
+            fmt::format("{} holds a finished run without a checkpoint (output.checkpoint.at_end): nothing to "
+                        "resume. --force replaces it.",
+                        files.directory.string()));
+}
+
 /// State and files from the newest checkpoint, or from time 0 if there is none.
 void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
 {
     std::optional<solver::State> stored;
-    if (options.resume)
-        stored = io::resume(files.directory / "checkpoint", files.of_case,
+    if (options.resume) {
+        stored = io::resume(files.directory / io::checkpoint_files.folder, files.of_case,
                             [&](const std::string& text) { log.line("warning: " + text); });
-    if (!stored) {
-        // A run that was killed before its first checkpoint starts again, so that a job script can always say --resume.
-        const auto record = files.directory / "run.json";
-        if (options.resume && std::filesystem::exists(record) && io::read_run_record(record).status == "done")
-            throw core::InputError(
-                fmt::format("{} holds a finished run without a checkpoint (output.checkpoint.at_end): nothing to "
-                            "resume. --force replaces it.",
-                            files.directory.string()));
-        start_files(files);
-        run.state = solver::initialise(run.problem, run.prepared, run.derived);
-        files.history = std::make_unique<io::HistoryFile>(files.directory / "history.csv", run.problem.grid.levels);
-        files.record.particles_start = solver::particles_per_level(run.state);
-        if (!run.problem.quantities.empty()) {
-            files.probes = std::make_unique<io::LineFile>(files.directory / "probes.csv",
-                                                          io::probe_header(run.problem.quantities));
-            write_probes(run.problem, run.prepared, run.derived, run.state, files);
+        if (!stored) {
+            require_nothing_to_resume(files);
+            log.line("no checkpoint: starts at time 0");
         }
+    }
+    if (!stored) {
+        // The run that --force replaces goes when the new one has begun.
+        const bool replaces = options.force && holds_run(files.directory);
+        if (!replaces) start_files(files);
+        run.state = solver::initialise(run.problem, run.prepared, run.derived);
+        if (replaces) start_files(files);
+        files.record.particles_start = solver::particles_per_level(run.state);
+        open_tables(run.problem, run.state, files);
+        write_probes(run.problem, run.prepared, run.derived, run.state, files);
         return;
     }
     const io::RunRecord before = io::read_run_record(files.directory / "run.json");
@@ -78,20 +90,13 @@ void begin(const RunOptions& options, Log& log, Run& run, RunFiles& files)
     continue_files(files);
     run.state = std::move(*stored);
     solver::resume(run.problem, run.prepared, run.state, run.derived);
-    // A run that ended has one line more than its state: the end cut a mean short that now goes on.
-    files.history = std::make_unique<io::HistoryFile>(files.directory / "history.csv", run.problem.grid.levels,
-                                                      run.state.history.empty() ? 0 : run.state.history.back().step);
-    if (!run.problem.quantities.empty())
-        files.probes = std::make_unique<io::LineFile>(files.directory / "probes.csv",
-                                                      io::probe_header(run.problem.quantities), run.state.clock.step);
-    io::rewind_particle_series(files.directory / "particles", run.state.clock.time);
-    io::rewind_grid_series(files.directory / "grid", run.state.clock.time);
-    files.vdb_frame = io::last_vdb_frame(files.directory / "vdb", run.state.clock.step);
-    Real largest = 0;
-    for (const solver::HistoryLine& line : run.state.history) largest = std::max(largest, line.cod);
+    open_tables(run.problem, run.state, files);
+    for (const io::NumberedFiles& kind : {io::particle_files, io::grid_files})
+        io::rewind_series(files.directory / kind.folder / kind.list, run.state.clock.time);
+    files.last_vdb = io::last_vdb_frame(files.directory / io::vdb_files.folder, run.state.clock.step);
     for (Schedule* schedule :
          {&files.history_due, &files.probes_due, &files.particles_due, &files.grid_due, &files.vdb_due})
-        schedule->skip_to(run.state.clock, largest);
+        schedule->skip_to(run.state.clock, run.state.largest_opening);
     log.line(fmt::format("resumed at step {}, t = {:.6g} ms", run.state.clock.step, run.state.clock.time));
 }
 
@@ -160,8 +165,7 @@ int run_case(const RunOptions& options)
             fmt::format("another run is writing to {}: wait for it, or choose another -o", directory.string()));
     for (const std::string& warning : read.warnings) log.line(warning);
     warn_of_memory(read.problem, log);
-    const int hardware = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    const int threads = options.threads > 0 ? options.threads : hardware;
+    const int threads = options.threads > 0 ? options.threads : hardware_threads();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     files.record.threads = threads;
     files.record.commit = commit();

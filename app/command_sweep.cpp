@@ -1,6 +1,8 @@
 /// `cleave sweep`: many runs of one case, compared with wanted values.
 #include "app/commands.h"
 #include "app/exit_code.h"
+#include "app/hardware_threads.h"
+#include "app/log.h"
 #include "app/stop_request.h"
 #include "app/sweep_table.h"
 #include "app/walltime_option.h"
@@ -12,7 +14,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <thread>
 
 namespace app
 {
@@ -40,11 +41,7 @@ std::vector<StudyRun> planned_runs(const io::Sweep& sweep, const fs::path& direc
         run.overrides = sweep.set;
         run.overrides.insert(run.overrides.end(), setting.set.begin(), setting.set.end());
         run.limit = sweep.limit.value_or(0);
-        std::string name = directory_name(setting.label);
-        for (int n = 2; std::find(directories.begin(), directories.end(), name) != directories.end(); ++n)
-            name = fmt::format("{}-{}", directory_name(setting.label), n);
-        directories.push_back(name);
-        run.directory = directory / "runs" / name;
+        run.directory = directory / "runs" / new_directory_name(setting.label, directories);
         runs.push_back(std::move(run));
     }
     prepare_runs(runs);
@@ -72,27 +69,22 @@ int sweep(Options options)
     catch_stop_signals();
     std::vector<StudyRun> runs = planned_runs(sweep, directory);
     for (const StudyRun& run : runs)
-        if (run.resolved.empty()) fmt::print("{}: not applicable\n{}\n", run.label, run.not_applicable);
-    const auto applicable =
-        std::find_if(runs.begin(), runs.end(), [](const StudyRun& run) { return !run.resolved.empty(); });
-    if (applicable == runs.end())
+        if (run.resolved.empty()) say(fmt::format("{}: not applicable\n{}\n", run.label, run.not_applicable));
+    if (std::all_of(runs.begin(), runs.end(), [](const StudyRun& run) { return run.resolved.empty(); }))
         throw core::InputError(fmt::format("{}: no run of the sweep is applicable", options.file));
-    check_targets(sweep, applicable->problem);
     if (!options.slurm.empty()) return write_slurm(options, sweep, std::move(runs));
-    const int hardware = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     options.study.threads = sweep.threads;
-    options.study.jobs = options.jobs > 0 ? options.jobs : std::max(1, hardware / sweep.threads);
-    fmt::print("{}: {} runs, {} at a time on {} thread{} each, results in {}\n",
-               sweep.title.empty() ? options.file : sweep.title, runs.size(), options.study.jobs, sweep.threads,
-               sweep.threads == 1 ? "" : "s", directory.string());
-    std::fflush(stdout);
+    options.study.jobs = options.jobs > 0 ? options.jobs : std::max(1, hardware_threads() / sweep.threads);
+    say(fmt::format("{}: {} runs, {} at a time on {} thread{} each, results in {}\n",
+                    sweep.title.empty() ? options.file : sweep.title, runs.size(), options.study.jobs, sweep.threads,
+                    sweep.threads == 1 ? "" : "s", directory.string()));
     io::make_directory(directory);
     const PoolEnd end = run_study(options.study, runs);
     const std::vector<SweepRow> rows = sweep_rows(sweep, runs);
     io::write_file(directory / "sweep.csv", sweep_csv(rows));
-    fmt::print("\n{}\n{}\n", sweep_text(sweep, rows), (directory / "sweep.csv").string());
+    say(fmt::format("\n{}\n{}\n", sweep_text(sweep, rows), (directory / "sweep.csv").string()));
     if (end == PoolEnd::all_done) return exit_done;
-    fmt::print("stopped; the same command goes on\n");
+    say("stopped; the same command goes on\n");
     return exit_stopped;
 }
 } // namespace

@@ -37,7 +37,7 @@ Real fastest_wave(const solver::Problem& problem)
 {
     Real fastest = 0;
     for (const material::Material& material : problem.materials)
-        fastest = std::max(fastest, std::sqrt(material.elastic.wave_modulus() / material.elastic.density));
+        fastest = std::max(fastest, material.elastic.wave_speed());
     return fastest;
 }
 
@@ -60,13 +60,21 @@ Real end_time(const solver::Problem& problem)
     return std::min(problem.end.time, by_opening);
 }
 
+/// One at every multiple of the intervals, and one at the end if that is none.
 Real frames(const solver::OutputEvery& every, const Forecast& forecast, const solver::Problem& problem)
 {
     Real count = 0;
-    if (every.time) count += forecast.end_time / *every.time;
-    if (every.steps) count += forecast.steps / static_cast<Real>(*every.steps);
-    if (every.cod && std::isfinite(problem.end.cod)) count += problem.end.cod / *every.cod;
-    return count > 0 ? std::floor(count) + 1 : 0;
+    bool any = false, at_end = false;
+    const auto add = [&](Real intervals) {
+        const Real whole = std::floor(intervals * (1 + 1e-12)); // as the schedule of a run counts
+        any = any || intervals > 0;
+        at_end = at_end || intervals - whole < 1e-9;
+        count += whole;
+    };
+    if (every.time) add(forecast.end_time / *every.time);
+    if (every.steps) add(forecast.steps / static_cast<Real>(*every.steps));
+    if (every.cod && std::isfinite(problem.end.cod)) add(problem.end.cod / *every.cod);
+    return any && !at_end ? count + 1 : count;
 }
 
 Real bytes_per_written_particle(const solver::Output& output)

@@ -8,6 +8,12 @@
 
 namespace app
 {
+void say(const std::string& text)
+{
+    std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+}
+
 Log::Log(const std::filesystem::path& path, std::FILE* out, bool terminal)
     : file_(std::fopen(path.c_str(), "ae")), out_(out), terminal_(terminal)
 {

@@ -7,6 +7,9 @@
 
 namespace app
 {
+/// Write to the terminal at once. A reader that went away (`| head`) ends nothing.
+void say(const std::string& text);
+
 class Log
 {
 public:

@@ -11,11 +11,18 @@ namespace app
 {
 namespace
 {
+/// That many decimals, but three significant digits at least: what is small is not 0.
+std::string decimal_text(Real value, int decimals)
+{
+    const bool small = value != 0 && std::abs(value) < std::pow(Real(10), 2 - decimals);
+    return small ? fmt::format("{:.3g}", value) : fmt::format("{:.{}f}", value, decimals);
+}
+
 std::string number_text(const std::string& name, Real value)
 {
-    if (!std::isfinite(value)) return "not reached";
-    if (name.ends_with("_N")) return fmt::format("{:.0f} N", value);
-    if (name.ends_with("_mm")) return fmt::format("{:.2f} mm", value);
+    if (!std::isfinite(value)) return missing_text(name);
+    if (name.ends_with("_N")) return decimal_text(value, 0) + " N";
+    if (name.ends_with("_mm")) return decimal_text(value, 2) + " mm";
     return fmt::format("{:.2e}", value);
 }
 
@@ -30,6 +37,7 @@ std::string reference_text(const io::Measure& own, const solver::Reference& refe
     if (!std::isfinite(value) || found->second == 0) return text;
     return fmt::format("{} ({:+.0f} %)", text, 100 * (value / found->second - 1));
 }
+
 bool has_target(const io::RunRecord& record, const std::string& name)
 {
     return std::any_of(record.targets.begin(), record.targets.end(),
@@ -68,6 +76,11 @@ bool is_asked(const solver::Problem& problem, const std::string& measure)
     const bool of_event = std::find(events.begin(), events.end(), measure) != events.end();
     if (of_event && measure.ends_with("_mean_N") && problem.mean_over <= 0) return false;
     return !problem.ligaments.empty() || !(of_event || measure == "crack_path");
+}
+
+std::string missing_text(const std::string& measure)
+{
+    return measure == "energy_residual" ? "no external work" : "not reached";
 }
 
 std::string measure_table(const io::RunRecord& record, const solver::Problem& problem)

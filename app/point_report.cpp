@@ -1,6 +1,7 @@
 #include "app/point_report.h"
 
 #include "app/svg_chart.h"
+#include "core/equivalent_stress.h"
 #include "material/decohesion.h"
 
 #include <fmt/format.h>
@@ -13,12 +14,6 @@ namespace app
 namespace
 {
 using History = std::vector<solver::PointState>;
-
-double von_mises(const core::Sym<double>& s)
-{
-    const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-    return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
-}
 
 /// The component whose strain changes most over the path.
 int main_component(const History& history)
@@ -130,7 +125,8 @@ std::string point_charts(const History& history)
         {"strain " + name,
          "stress (MPa)",
          {series(history, "component", "#1f77b4", strain, [i](auto& state) { return state.stress[i]; }),
-          series(history, "von Mises", "#999999", strain, [](auto& state) { return von_mises(state.stress); })}},
+          series(history, "von Mises", "#999999", strain,
+                 [](auto& state) { return core::equivalent_stress(state.stress); })}},
         {"strain " + name,
          "damage, eq. plastic strain",
          {series(history, "damage", "#d62728", strain,
@@ -146,11 +142,12 @@ std::string point_summary(const solver::PointPath& path, const History& history)
 {
     const solver::PointState& end = history.back();
     const auto largest = std::max_element(history.begin(), history.end(), [](const auto& a, const auto& b) {
-        return von_mises(a.stress) < von_mises(b.stress);
+        return core::equivalent_stress(a.stress) < core::equivalent_stress(b.stress);
     });
     std::string text = fmt::format("steps        {} of {:.4g} ms, cell {:g} mm, material {}\n", end.step,
                                    path.step_time, path.spacing, path.material.name);
-    text += fmt::format("von Mises    largest {:.6g} MPa at step {}\n", von_mises(largest->stress), largest->step);
+    text += fmt::format("von Mises    largest {:.6g} MPa at step {}\n", core::equivalent_stress(largest->stress),
+                        largest->step);
     text += fmt::format("plastic      strain {:.6g}, work {:.6g} mJ/mm^3\n", end.eq_plastic_strain, end.plastic_work);
     return text + (end.crack                  ? crack_text(path.material, end)
                    : path.material.decohesion ? "onset        none: the strengths hold\n"

@@ -122,18 +122,20 @@ std::string measure_table(const Report& report)
     for (const io::Measure& measure : report.record.measures) {
         if (!is_asked(report.problem, measure.name)) continue;
         const bool text = std::holds_alternative<std::string>(measure.value);
-        Row row{measure.name, text ? std::get<std::string>(measure.value) : number(std::get<Real>(measure.value))};
+        const Real value = text ? Real(NAN) : std::get<Real>(measure.value);
+        Row row{measure.name, text                   ? std::get<std::string>(measure.value)
+                              : std::isfinite(value) ? number(value)
+                                                     : missing_text(measure.name)};
         for (const solver::Reference& reference : report.record.references) {
-            const auto value = reference.measure.find(solver::published_name(measure.name));
+            const auto published = reference.measure.find(solver::published_name(measure.name));
             if (measure.name == "crack_path")
                 row.push_back(reference.crack_path);
-            else if (value == reference.measure.end())
+            else if (published == reference.measure.end())
                 row.emplace_back("");
-            else if (const Real own = text ? Real(NAN) : std::get<Real>(measure.value);
-                     std::isfinite(own) && value->second != 0)
-                row.push_back(fmt::format("{:.5g} ({:+.1f} %)", value->second, 100 * (own / value->second - 1)));
+            else if (const Real other = published->second; std::isfinite(value) && other != 0)
+                row.push_back(fmt::format("{:.5g} ({:+.1f} %)", other, 100 * (value / other - 1)));
             else
-                row.push_back(number(value->second));
+                row.push_back(number(other));
         }
         rows.push_back(std::move(row));
     }

@@ -8,7 +8,6 @@
 #include "io/particle_file.h"
 #include "io/probe_file.h"
 #include "io/process_memory.h"
-#include "io/vdb_file.h"
 #include "solver/measures.h"
 #include "solver/nodal.h"
 #include "solver/observe.h"
@@ -26,11 +25,6 @@ namespace
 {
 namespace fs = std::filesystem;
 
-bool holds_run(const fs::path& directory)
-{
-    return fs::exists(directory / "run.json");
-}
-
 std::int64_t multiples(Real value, Real every)
 {
     // The tolerance keeps a clock that sums steps from missing a multiple by its last bit.
@@ -45,27 +39,28 @@ void write_particles(const solver::Problem& problem, const solver::State& state,
     options.precision = problem.output.particle_precision == "f64" ? io::Precision::f64 : io::Precision::f32;
     options.particles_per_cell = problem.grid.particles_per_cell;
     options.version = CLEAVE_VERSION;
-    io::write_particle_frame(files.directory / "particles", state.particles, state.levels, state.clock, options);
+    io::write_particle_frame(files.directory / io::particle_files.folder, state.particles, state.levels, state.clock,
+                             options);
 }
 
 void write_grid(const solver::Problem& problem, const solver::State& state, RunFiles& files)
 {
     files.last_grid = state.clock.step;
     const io::GridFileOptions options{problem.output.grid_fields, CLEAVE_VERSION};
-    io::write_grid_frame(files.directory / "grid", state.particles, state.levels, state.clock, options);
+    io::write_grid_frame(files.directory / io::grid_files.folder, state.particles, state.levels, state.clock, options);
 }
 
 void write_volume(const solver::Problem& problem, const solver::State& state, RunFiles& files)
 {
-    files.last_vdb = state.clock.step;
+    files.last_vdb = {files.last_vdb.number + 1, state.clock.step};
     io::VdbFileOptions options;
     options.grids = problem.output.vdb_grids;
     options.preset = problem.output.vdb_preset;
     options.scale = problem.output.vdb_scale;
     options.particles_per_cell = problem.grid.particles_per_cell;
     options.version = CLEAVE_VERSION;
-    io::write_vdb_frame(files.directory / "vdb", ++files.vdb_frame, state.particles, state.levels, state.clock,
-                        options);
+    io::write_vdb_frame(files.directory / io::vdb_files.folder, files.last_vdb.number, state.particles, state.levels,
+                        state.clock, options);
 }
 
 bool wanted(const solver::OutputEvery& every)
@@ -76,29 +71,10 @@ bool wanted(const solver::OutputEvery& every)
 /// What an earlier run has written; anything else stays.
 void remove_results(const fs::path& directory)
 {
-    for (const char* name : {"history.csv", "events.csv", "probes.csv", "report.html"}) fs::remove(directory / name);
-    struct Written
-    {
-        const char *folder, *begin, *end;
-    };
-    for (const Written& written : {Written{"checkpoint", "ck_", ".h5"},
-                                   {"checkpoint", "latest", ""},
-                                   {"particles", "p_", ".hdf"},
-                                   {"particles", "particles.hdf", ".series"},
-                                   {"grid", "g_", ".hdf"},
-                                   {"grid", "grid.hdf", ".series"},
-                                   {"vdb", "vol_", ".vdb"}})
-    {
-        const fs::path folder = directory / written.folder;
-        if (!fs::is_directory(folder)) continue;
-        std::vector<fs::path> found;
-        for (const auto& entry : fs::directory_iterator(folder))
-            if (const std::string name = entry.path().filename().string();
-                name.starts_with(written.begin) && name.ends_with(written.end))
-                found.push_back(entry.path());
-        for (const fs::path& file : found) fs::remove(file);
-        if (fs::is_empty(folder)) fs::remove(folder);
-    }
+    for (const char* name : {"run.json", "history.csv", "events.csv", "probes.csv", "report.html"})
+        fs::remove(directory / name);
+    for (const io::NumberedFiles& kind : {io::checkpoint_files, io::particle_files, io::grid_files, io::vdb_files})
+        io::remove_all(directory, kind);
 }
 
 /// Make a directory that is not there yet.
@@ -112,6 +88,11 @@ bool make_new(const fs::path& directory)
     return false;
 }
 } // namespace
+
+bool holds_run(const fs::path& directory)
+{
+    return fs::exists(directory / "run.json");
+}
 
 bool Schedule::due(const solver::Clock& clock, std::optional<Real> cod)
 {
@@ -178,8 +159,19 @@ void start_files(RunFiles& files)
 void continue_files(RunFiles& files)
 {
     files.claimed = true;
-    write_status(0, files);
     io::write_file(files.directory / "resolved.toml", files.of_case.resolved);
+    write_status(0, files);
+}
+
+void open_tables(const solver::Problem& problem, const solver::State& state, RunFiles& files)
+{
+    files.history =
+        std::make_unique<io::HistoryFile>(files.directory / "history.csv", problem.grid.levels, state.history);
+    if (problem.quantities.empty()) return;
+    std::vector<std::string> lines;
+    for (const solver::Sample& sample : state.samples) lines.push_back(io::probe_text(problem.quantities, sample));
+    files.probes =
+        std::make_unique<io::LineFile>(files.directory / "probes.csv", io::probe_header(problem.quantities), lines);
 }
 
 void write_probes(const solver::Problem& problem, const solver::Prepared& prepared, const solver::Derived& derived,
@@ -207,7 +199,10 @@ void write_due(const solver::Problem& problem, const solver::Prepared& prepared,
                solver::State& state, RunFiles& files)
 {
     std::optional<Real> cod;
-    if (state.clock.step % opening_interval == 0) cod = solver::gauge_opening(problem, state, derived);
+    if (state.clock.step % opening_interval == 0) {
+        cod = solver::gauge_opening(problem, state, derived);
+        state.largest_opening = std::max(state.largest_opening, *cod);
+    }
     const bool history = files.history_due.due(state.clock, cod);
     if (history) write_history_line(problem, prepared, derived, state, files);
     if (wanted(problem.output.probes) ? files.probes_due.due(state.clock, cod) : history)
@@ -231,13 +226,14 @@ void write_last_frames(const solver::Problem& problem, solver::State& state, Run
     if (wanted(problem.output.particles) && files.last_particles != state.clock.step)
         write_particles(problem, state, files);
     if (wanted(problem.output.grid) && files.last_grid != state.clock.step) write_grid(problem, state, files);
-    if (wanted(problem.output.vdb) && files.last_vdb != state.clock.step) write_volume(problem, state, files);
+    if (wanted(problem.output.vdb) && files.last_vdb.step != state.clock.step) write_volume(problem, state, files);
 }
 
 void write_checkpoint(const solver::Problem& problem, solver::State& state, double wall_s, RunFiles& files)
 {
     const solver::OutputColumns columns(state);
-    io::write_checkpoint(files.directory / "checkpoint", state, files.of_case, problem.output.checkpoint_keep);
+    io::write_checkpoint(files.directory / io::checkpoint_files.folder, state, files.of_case,
+                         problem.output.checkpoint_keep);
     files.last_checkpoint = wall_s;
     write_record(problem, state, wall_s, files);
 }

@@ -7,6 +7,7 @@
 #include "io/history_file.h"
 #include "io/line_file.h"
 #include "io/run_record.h"
+#include "io/vdb_file.h"
 #include "solver/state.h"
 #include "solver/step.h"
 
@@ -42,13 +43,15 @@ struct RunFiles
     std::unique_ptr<io::LineFile> probes; // null: the case measures nothing of its own
     Schedule history_due, probes_due, particles_due, grid_due, vdb_due;
     std::optional<std::size_t> events; // lines in events.csv; empty: not written in this part of the run
-    int vdb_frame = 0;
-    std::int64_t last_particles = -1, last_grid = -1, last_vdb = -1; // steps of the newest frames
-    double last_checkpoint = 0;                                      // s, wall time since the start of this part
-    bool claimed = false;                                            // what run.json says is about this run
-    double wall_before = 0, cpu_before = 0;                          // s, of the parts before a restart
-    std::clock_t cpu_start = std::clock();                           // processor time of all threads
+    io::VdbFrame last_vdb;
+    std::int64_t last_particles = -1, last_grid = -1; // steps of the newest frames
+    double last_checkpoint = 0;                       // s, wall time since the start of this part
+    bool claimed = false;                             // what run.json says is about this run
+    double wall_before = 0, cpu_before = 0;           // s, of the parts before a restart
+    std::clock_t cpu_start = std::clock();            // processor time of all threads
 };
+
+bool holds_run(const std::filesystem::path& directory);
 
 /// Make the directory a run writes to: `-o`, or results/<case>, or with a number behind it if that is there already, so
 /// that runs started at the same time have one each.
@@ -61,6 +64,9 @@ RunFiles open_files(const std::filesystem::path& directory, const io::Case& run_
 /// From here on the directory is this run's: remove what an earlier one left, write the first run.json ("running") and
 /// resolved.toml.
 void start_files(RunFiles& files);
+
+/// Open history.csv and probes.csv with the lines that the state holds, if the case measures anything.
+void open_tables(const solver::Problem& problem, const solver::State& state, RunFiles& files);
 
 /// The same for a run that goes on from a checkpoint: what was written until then stays.
 void continue_files(RunFiles& files);

@@ -16,6 +16,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <exception>
 #include <thread>
 
 namespace app
@@ -95,9 +96,25 @@ PoolEnd run_jobs(const std::vector<Job>& jobs, int slots, std::optional<double> 
     std::vector<Child> children;
     std::size_t next = 0;
     bool stopping = false;
+    std::exception_ptr failure; // of a log or record that cannot be written: the children end in order all the same
+    const auto attempt = [&](const auto& action) {
+        try {
+            action();
+        } catch (...) {
+            if (!failure) failure = std::current_exception();
+        }
+    };
+    std::signal(SIGCHLD, SIG_DFL); // ignored, as some parents leave it, it would keep the ends of children from us
     while (next < jobs.size() || !children.empty()) {
+        const bool late = walltime && seconds_since(begin) > *walltime;
+        if (!stopping && (stop_requested() || late || failure)) {
+            stopping = true;
+            for (const Child& child : children) ::kill(child.process, SIGTERM);
+        }
+        if (stopping && children.empty()) break;
         while (!stopping && next < jobs.size() && children.size() < static_cast<std::size_t>(std::max(1, slots))) {
-            children.push_back(start(jobs[next], next));
+            attempt([&] { children.push_back(start(jobs[next], next)); });
+            if (failure) break;
             events.started(next++);
         }
         std::this_thread::sleep_for(pause);
@@ -105,15 +122,11 @@ PoolEnd run_jobs(const std::vector<Job>& jobs, int slots, std::optional<double> 
             if (const std::optional<JobEnd> end = ended(children[i])) {
                 const std::size_t job = children[i].job;
                 children.erase(children.begin() + static_cast<std::ptrdiff_t>(i));
-                events.ended(job, *end);
+                attempt([&] { events.ended(job, *end); });
             } else
                 ++i;
-        if (!stopping && (stop_requested() || (walltime && seconds_since(begin) > *walltime))) {
-            stopping = true;
-            for (const Child& child : children) ::kill(child.process, SIGTERM);
-        }
-        if (stopping && children.empty()) return PoolEnd::stopped;
     }
-    return PoolEnd::all_done;
+    if (failure) std::rethrow_exception(failure);
+    return stopping ? PoolEnd::stopped : PoolEnd::all_done;
 }
 } // namespace app

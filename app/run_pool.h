@@ -39,7 +39,8 @@ struct PoolEvents
 };
 
 /// Run the jobs in order. A stop request (app/stop_request.h) or the end of `walltime` sends SIGTERM to the children
-/// and waits for them. If this process dies the children get SIGTERM, too (Linux).
+/// and waits for them; so does an error in `events` or in starting one, which is thrown on then. If this process dies
+/// the children get SIGTERM, too (Linux).
 ///
 /// @pre catch_stop_signals() was called
 /// @error core::FileError if a log cannot be written or no process can be made

@@ -37,6 +37,36 @@ Real smallest_side(const solver::Problem& problem)
     return smallest;
 }
 
+bool in_metal(const solver::Problem& problem, const Vec3& point)
+{
+    const Real slack = 1e-6 * problem.grid.cell; // faces that touch count
+    for (unsigned planes = 0; planes < 1U << problem.symmetry.size(); ++planes) {
+        Vec3 image = point; // beyond a symmetry plane lies what lies before it
+        for (std::size_t i = 0; i < problem.symmetry.size(); ++i)
+            if (const solver::SymmetryPlane& plane = problem.symmetry[i]; (planes >> i & 1U) != 0)
+                image[plane.axis] = 2 * plane.at - image[plane.axis];
+        for (const solver::Body& body : problem.bodies)
+            if (body.shape.distance(image) <= slack) return true;
+    }
+    return false;
+}
+
+/// Whether metal faces a void on two opposite sides of its centre, as that of a hole or slot does; not that of a fillet
+/// or a rounded corner.
+bool between_metal(const solver::Problem& problem, const Vec3& centre, Real depth)
+{
+    const auto metal_along = [&](const Vec3& way) {
+        for (const Real reach : {1.02, 1.1, 1.25})
+            if (in_metal(problem, centre + reach * depth * way)) return true;
+        return false;
+    };
+    for (int n = 14; n < 27; ++n) { // one of each pair of opposite directions of the lattice
+        const Vec3 way = Vec3(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1).normalized();
+        if (metal_along(way) && metal_along(-way)) return true;
+    }
+    return false;
+}
+
 /// Twice the depth of the centre in a void, which for a round hole is the diameter; edges and open ends have none. A
 /// void that others overlap, such as a piece of a slot, is as wide as the widest of them is around its centre.
 Real smallest_hole(const solver::Problem& problem)
@@ -47,7 +77,7 @@ Real smallest_hole(const solver::Problem& problem)
         Real depth = 0;
         for (const solver::Feature& hole : problem.features)
             depth = std::max(depth, -hole.shape.distance(feature.centre));
-        smallest = std::min(smallest, 2 * depth);
+        if (between_metal(problem, feature.centre, depth)) smallest = std::min(smallest, 2 * depth);
     }
     return smallest;
 }

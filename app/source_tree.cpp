@@ -15,4 +15,11 @@ std::optional<fs::path> source_file(const fs::path& relative)
         }
     return {};
 }
+
+fs::path here_or_source(const fs::path& file)
+{
+    std::error_code problem;
+    if (file.empty() || file.is_absolute() || fs::exists(file, problem)) return file;
+    return source_file(file).value_or(file);
+}
 } // namespace app

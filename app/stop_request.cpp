@@ -21,6 +21,10 @@ void catch_stop_signals()
 {
     requested = 0;
     for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) std::signal(signal, request_stop);
+    // A terminal that closes stops a run, unless it was started with nohup; a reader that goes away (`| head`) does
+    // not.
+    if (std::signal(SIGHUP, request_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
 }
 
 bool stop_requested()

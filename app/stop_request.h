@@ -1,4 +1,4 @@
-/// Ways to end a run early with a checkpoint: SIGINT, SIGTERM, SIGUSR1, and the wall-time limit.
+/// Ways to end a run early with a checkpoint: SIGINT, SIGTERM, SIGUSR1, SIGHUP, and the wall-time limit.
 #pragma once
 
 #include <optional>
@@ -6,7 +6,8 @@
 
 namespace app
 {
-/// From now on those signals only set a flag. A second SIGINT ends the program at once.
+/// From now on those signals only set a flag, and writing to a closed pipe is an error, not the end. A second SIGINT
+/// ends the program at once.
 void catch_stop_signals();
 bool stop_requested();
 

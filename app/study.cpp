@@ -2,6 +2,7 @@
 
 #include "app/exit_code.h"
 #include "app/forecast.h"
+#include "app/log.h"
 #include "app/wall_clock.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <map>
 
 namespace app
@@ -28,11 +30,12 @@ fs::path record_path(const StudyRun& run)
     return run.directory / "job.json";
 }
 
-/// Did the run end for a reason that lies in itself, so that repeating it would give the same?
+/// Did the run end for a reason that lies in itself, so that repeating it would give the same? Not so one that was
+/// refused: the directory may have been another's at that time, or the memory.
 bool settled(const io::JobRecord& record, Real limit)
 {
     if (record.over_limit) return limit > 0 && record.limit_s >= limit;
-    return record.exit_code == exit_done || record.exit_code == exit_numerical || record.exit_code == exit_bad_input;
+    return record.exit_code == exit_done || record.exit_code == exit_numerical;
 }
 
 bool same_case(const StudyRun& run)
@@ -92,11 +95,13 @@ public:
         expected_done_ += run.expected_s;
         spent_ += run.record->cpu_s;
         const std::size_t width = std::to_string(runs_.size()).size();
-        fmt::print("{}[{:>{}}/{}] {:<50} {:<18} {:8.2f} s{}\n", terminal_ ? "\r\033[K" : "", done_, width, runs_.size(),
-                   run.label, outcome(*run.record), run.record->cpu_s, left());
-        std::fflush(stdout);
+        say(fmt::format("{}[{:>{}}/{}] {:<50} {:<18} {:8.2f} s{}\n", terminal_ ? "\r\033[K" : "", done_, width,
+                        runs_.size(), run.label, outcome(*run.record), run.record->cpu_s, left()));
         show();
     }
+
+    /// It ended before it heard what it was to do: as if it had not been started.
+    void withdrawn(std::size_t job) { std::erase(under_way_, job); }
 
 private:
     std::string left() const
@@ -110,8 +115,7 @@ private:
         if (!terminal_ || under_way_.empty()) return;
         std::string names;
         for (const std::size_t job : under_way_) names += (names.empty() ? "" : ", ") + runs_[job]->label;
-        fmt::print("\r\033[K  running {}", names);
-        std::fflush(stdout);
+        say("\r\033[K  running " + names);
     }
 
     std::vector<const StudyRun*> runs_;
@@ -125,7 +129,7 @@ private:
 Real expected_seconds(const solver::Problem& problem, const ParticleCount& counted)
 {
     const Forecast f = forecast(problem, counted);
-    const Real work = f.steps * static_cast<Real>(f.total_particles());
+    const Real work = f.particle_steps;
     constexpr Real start = 0.05; // s, reading and seeding
     return std::isfinite(work) ? start + work / assumed_steps_per_s(problem.numerics) : start;
 }
@@ -167,6 +171,16 @@ std::string directory_name(const std::string& label)
     return name.empty() || name.front() == '.' ? "run" + name : name;
 }
 
+std::string new_directory_name(const std::string& label, std::vector<std::string>& in_use)
+{
+    const std::string plain = directory_name(label);
+    std::string name = plain;
+    for (int n = 2; std::find(in_use.begin(), in_use.end(), name) != in_use.end(); ++n)
+        name = fmt::format("{}-{}", plain, n);
+    in_use.push_back(name);
+    return name;
+}
+
 void prepare_runs(std::vector<StudyRun>& runs)
 {
     tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t i) {
@@ -202,7 +216,7 @@ void expect_costs(const std::vector<StudyRun*>& runs)
 std::optional<io::JobRecord> finished_run(const StudyRun& run, bool whole_cost)
 {
     std::optional<io::JobRecord> record = io::read_job_record(record_path(run));
-    if (!record && !whole_cost) record = record_of_other(run);
+    if (!whole_cost && (!record || !settled(*record, run.limit))) record = record_of_other(run);
     if (!record || record->version != CLEAVE_VERSION || !settled(*record, run.limit) || !same_case(run)) return {};
     return record;
 }
@@ -247,6 +261,10 @@ PoolEnd run_study(const StudyOptions& options, std::vector<StudyRun>& runs)
     events.started = [&](std::size_t job) { progress.started(job); };
     events.ended = [&](std::size_t job, const JobEnd& end) {
         StudyRun& run = *to_do[job];
+        if (end.exit_code == -SIGTERM) { // before it listened to signals
+            run.record = before[job];
+            return progress.withdrawn(job);
+        }
         run.record = joined_record(run, end, before[job]);
         io::write_job_record(record_path(run), *run.record);
         progress.ended(job);

@@ -40,6 +40,8 @@ struct StudyOptions
 
 /// "nodal h/2" as a name for a directory.
 std::string directory_name(const std::string& label);
+/// The same, with a number behind it if it is in use; from here on it is.
+std::string new_directory_name(const std::string& label, std::vector<std::string>& in_use);
 
 /// Read the case of every run with its overrides: fills in `resolved` or `not_applicable`, and `problem`.
 void prepare_runs(std::vector<StudyRun>& runs);

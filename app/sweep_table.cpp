@@ -2,11 +2,9 @@
 
 #include "app/exit_code.h"
 #include "app/shell_word.h"
-#include "core/error.h"
 #include "io/csv.h"
 #include "io/diagnostics.h"
 #include "io/run_record.h"
-#include "solver/measures.h"
 
 #include <fmt/format.h>
 
@@ -19,6 +17,14 @@ namespace app
 namespace
 {
 constexpr Real nan = std::numeric_limits<Real>::quiet_NaN();
+
+/// A title within a comment: no line end may leave it.
+std::string one_line(std::string text)
+{
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+    return text;
+}
 
 std::string value_text(const io::Measure& measure)
 {
@@ -69,20 +75,6 @@ SweepRow row_of(const io::Sweep& sweep, const StudyRun& run)
     return row;
 }
 } // namespace
-
-void check_targets(const io::Sweep& sweep, const solver::Problem& problem)
-{
-    std::vector<std::string> names;
-    const std::vector<solver::LigamentState> intact(problem.ligaments.size());
-    for (const solver::Measure& measure : solver::measures(problem, {}, intact).numbers) names.push_back(measure.name);
-    for (const solver::Quantity& quantity : problem.quantities) names.push_back(quantity.name);
-    for (const io::SweepTarget& target : sweep.targets) {
-        if (std::find(names.begin(), names.end(), target.measure) != names.end()) continue;
-        throw core::InputError(fmt::format("{}: target '{}': the runs have no such measure{}\nmeasures: {}",
-                                           sweep.file.string(), target.measure,
-                                           io::nearest_hint(target.measure, names, "; "), io::joined(names)));
-    }
-}
 
 std::vector<SweepRow> sweep_rows(const io::Sweep& sweep, const std::vector<StudyRun>& runs)
 {
@@ -158,7 +150,7 @@ std::string slurm_script(const io::Sweep& sweep, const std::vector<StudyRun>& ru
                     "# The run writes a checkpoint when the time is nearly over, and the task queues again.\n"
                     "cd {} || exit 1\n"
                     "case $SLURM_ARRAY_TASK_ID in\n",
-                    runs.size() - 1, sweep.threads, sweep.title.empty() ? "sweep" : sweep.title, runs.size(),
+                    runs.size() - 1, sweep.threads, sweep.title.empty() ? "sweep" : one_line(sweep.title), runs.size(),
                     sweep.file.string(), shell_word(std::filesystem::current_path().string()));
     StudyOptions options;
     options.threads = sweep.threads;

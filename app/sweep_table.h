@@ -17,10 +17,6 @@ struct SweepRow
     std::vector<std::string> set;
 };
 
-/// @param problem  of one of the runs
-/// @error core::InputError for a target that they do not measure
-void check_targets(const io::Sweep& sweep, const solver::Problem& problem);
-
 /// Rows of all runs, the nearest first, then those without distance in the order of the sweep.
 std::vector<SweepRow> sweep_rows(const io::Sweep& sweep, const std::vector<StudyRun>& runs);
 

@@ -1,5 +1,6 @@
 #include "app/template.h"
 
+#include "io/document.h"
 #include "io/keys.h"
 
 #include <fmt/format.h>
@@ -14,11 +15,11 @@ constexpr std::string_view bar =
     R"(# A sheet with a notch, pulled apart: change the shapes, materials and loads to yours.
 #
 #   cleave check {0}.toml     errors, cost, map of the levels
-#   cleave run {0}.toml       results in a directory beside it
+#   cleave run {0}.toml       results in results/{0}
 #
 # Bare numbers are in mm, g, ms (so N, MPa, mJ); quoted values carry a unit: "195 GPa", "5 m/s", "20 min".
 units = "mm-g-ms"
-title = "{0}"
+title = {1}
 
 [grid]
 cell = 0.5             # level 0
@@ -95,7 +96,7 @@ vdb = {{ every_time = "0.05 ms" }}
 
 std::string case_template(const std::string& name)
 {
-    std::string text = fmt::format(bar, name);
+    std::string text = fmt::format(bar, name, io::write_value(io::node(std::string_view(name))));
     text += "# ---- every key ----\n";
     for (const std::string& section : io::section_names()) {
         text += fmt::format("#\n# [{}]\n", section.empty() ? "top of the file" : section);

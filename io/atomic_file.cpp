@@ -2,6 +2,8 @@
 
 #include "core/error.h"
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -13,6 +15,8 @@ namespace io
 {
 namespace
 {
+constexpr std::string_view mark = ".", ending = ".tmp"; // around the name of a temporary
+
 /// An open file descriptor.
 class Descriptor
 {
@@ -96,8 +100,17 @@ void write_file(const std::filesystem::path& path, std::string_view text)
     target.commit();
 }
 
+std::filesystem::path name_of_temporary(const std::filesystem::path& temporary)
+{
+    std::string name = temporary.filename().string();
+    const std::size_t added = mark.size() + ending.size();
+    if (name.size() <= added || !name.starts_with(mark) || !name.ends_with(ending)) return {};
+    return name.substr(mark.size(), name.size() - added);
+}
+
 AtomicFile::AtomicFile(std::filesystem::path path)
-    : path_(std::move(path)), temporary_(path_.parent_path() / ("." + path_.filename().string() + ".tmp"))
+    : path_(std::move(path)),
+      temporary_(path_.parent_path() / fmt::format("{}{}{}", mark, path_.filename().string(), ending))
 {}
 
 AtomicFile::~AtomicFile()

@@ -29,10 +29,14 @@ int write_all(int descriptor, std::string_view text);
 /// @error FileError; the old file is then unchanged and no temporary is left
 void write_file(const std::filesystem::path& path, std::string_view text);
 
+/// The file name that a temporary would get; empty if the path is none.
+std::filesystem::path name_of_temporary(const std::filesystem::path& temporary);
+
 /// A temporary name beside a final one, for writers that open the file themselves (HDF5, OpenVDB).
 ///
-/// The temporary is hidden (".name.tmp"), so no pattern such as *.hdf matches it; a left-over of a killed run is
-/// overwritten by the next writer of the same file. Destroying without commit removes the temporary.
+/// The temporary is hidden (".name.tmp"), so no pattern such as *.hdf matches it. Destroying without commit removes it;
+/// what a killed run leaves is overwritten by the next writer of the same file (those of numbered files:
+/// io/numbered_files.h).
 class AtomicFile
 {
 public:

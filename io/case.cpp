@@ -16,18 +16,9 @@ void read_top(Draft& draft)
     section.finish();
     for (const Entry& entry : section.resolved().entries) keep(draft, {entry.key}, entry.value);
 }
-} // namespace
 
-Case read_case_with_warnings(const std::filesystem::path& file, const std::vector<std::string>& overrides)
+void read_sections(Draft& draft)
 {
-    Diagnostics diagnostics;
-    const Node root = load_document(file, overrides, diagnostics);
-    if (const Node* point = root.find("point"))
-        diagnostics.error(point->place, "[point] makes this the case of a material point", "use `cleave point`");
-    // After a syntax error half the file is missing: everything else would only be noise.
-    if (diagnostics.error_count() > 0) throw core::InputError(diagnostics.error_text());
-
-    Draft draft(root, diagnostics);
     read_top(draft);
     read_grid(draft);
     read_materials(draft);
@@ -46,6 +37,20 @@ Case read_case_with_warnings(const std::filesystem::path& file, const std::vecto
     read_output(draft);
     read_quantities(draft);
     read_references(draft);
+}
+} // namespace
+
+Case read_case_with_warnings(const std::filesystem::path& file, const std::vector<std::string>& overrides)
+{
+    Diagnostics diagnostics;
+    const Node root = load_document(file, overrides, diagnostics);
+    if (const Node* point = root.find("point"))
+        diagnostics.error(point->place, "[point] makes this the case of a material point", "use `cleave point`");
+    // After a syntax error half the file is missing: everything else would only be noise.
+    if (diagnostics.error_count() > 0) throw core::InputError(diagnostics.error_text());
+
+    Draft draft(root, diagnostics);
+    read_sections(draft);
     check_case(draft);
     if (diagnostics.error_count() > 0) throw core::InputError(diagnostics.error_text());
     return {std::move(draft.problem), diagnostics.warning_texts(), write_document(draft.resolved)};
@@ -54,5 +59,19 @@ Case read_case_with_warnings(const std::filesystem::path& file, const std::vecto
 solver::Problem read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides)
 {
     return read_case_with_warnings(file, overrides).problem;
+}
+
+std::vector<std::optional<Complaint>> complaints_of_keys(const std::filesystem::path& file,
+                                                         const std::vector<std::string>& overrides)
+{
+    Diagnostics diagnostics;
+    const Node root = load_document(file, overrides, diagnostics);
+    Draft draft(root, diagnostics);
+    read_sections(draft);
+    // Every override is a source of its own, after those of the files.
+    const std::size_t first = diagnostics.source_count() - overrides.size();
+    std::vector<std::optional<Complaint>> complaints;
+    for (std::size_t i = 0; i < overrides.size(); ++i) complaints.push_back(diagnostics.key_error_in(first + i));
+    return complaints;
 }
 } // namespace io

@@ -1,9 +1,11 @@
 /// Reading case files: TOML text in, a valid solver::Problem out, or every error at once.
 #pragma once
 
+#include "io/diagnostics.h"
 #include "solver/problem.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,4 +26,12 @@ Case read_case_with_warnings(const std::filesystem::path& file, const std::vecto
 
 /// The same, for those who need the Problem only.
 solver::Problem read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// What a case says against the keys of its overrides, whatever their values: "unknown key 'cel' in [grid]". What else
+/// is wrong with the case is not looked at.
+///
+/// @return one for each override, nothing where the case knows the key
+/// @error core::FileError if `file` cannot be read
+std::vector<std::optional<Complaint>> complaints_of_keys(const std::filesystem::path& file,
+                                                         const std::vector<std::string>& overrides);
 } // namespace io

@@ -43,6 +43,23 @@ bool any_sample(const Draft& draft, const geometry::Bounds& bounds, Real step, c
     return false;
 }
 
+/// The same, but not before the finest lattice has found none either: a coarse one, as of large cells, misses things.
+template <class Wanted>
+bool any_place(const Draft& draft, const geometry::Bounds& bounds, Real step, const Wanted& wanted)
+{
+    return any_sample(draft, bounds, step, wanted) || any_sample(draft, bounds, 0, wanted);
+}
+
+const Place& place_of_cell(const Draft& draft)
+{
+    return draft.root.find("grid")->find("cell")->place;
+}
+
+Real finest_cell(const solver::Grid& grid)
+{
+    return grid.cell / static_cast<Real>(1 << (grid.levels - 1));
+}
+
 void check_particles_per_cell(Draft& draft)
 {
     const int count = draft.problem.grid.particles_per_cell;
@@ -67,7 +84,7 @@ bool check_particle_count(Draft& draft, const refine::Scene& scene)
     if (count <= refine::most_particles) return true;
     // A little more, for what the estimate leaves out and the digits below.
     const Real cell = 1.1 * draft.problem.grid.cell * std::cbrt(count / refine::most_particles);
-    draft.diagnostics.error(draft.root.find("grid")->find("cell")->place,
+    draft.diagnostics.error(place_of_cell(draft),
                             fmt::format("cells of {} mm are about {:.1e} particles: a run numbers {:.1e} at most",
                                         draft.problem.grid.cell, count, refine::most_particles),
                             fmt::format("lengths are in mm; with these zones cells of {:.2g} mm or more", cell));
@@ -86,7 +103,16 @@ bool check_bodies(Draft& draft, const refine::Scene& scene)
                                     fmt::format("thinner than a cell of {} mm, or an empty shape", cell));
             all = false;
         }
-        const Real depth = cell / static_cast<Real>(1 << draft.problem.grid.levels); // half the finest cell
+        const Real finest = finest_cell(draft.problem.grid), depth = finest / 2;
+        const geometry::Bounds bounds = bodies[i].shape.bounds();
+        int thin = 0;
+        const Real side = (bounds.upper - bounds.lower).minCoeff(&thin);
+        if (side < finest * (1 - 1e-9))
+            draft.diagnostics.warning(place_of_cell(draft),
+                                      fmt::format("cells of {:.4g} mm, the finest, are wider than body '{}' along {}: "
+                                                  "{:.4g} mm",
+                                                  finest, bodies[i].name, "xyz"[thin], side),
+                                      "its forces will be wrong");
         for (std::size_t j = 0; j < i; ++j) {
             const geometry::Shape both = geometry::intersect({bodies[i].shape, bodies[j].shape});
             if (any_sample(draft, both.bounds(), depth, [&](const Vec3& p) { return both.distance(p) < -depth / 2; }))
@@ -106,8 +132,8 @@ void check_zones(Draft& draft, const refine::Scene& scene)
         if (!draft.zones[i].sound) continue;
         const Real spacing = problem.grid.cell / static_cast<Real>(1 << zone.level);
         const geometry::Shape region = geometry::grown(zone.shape, zone.margin);
-        if (!any_sample(draft, region.bounds(), spacing,
-                        [&](const Vec3& p) { return region.contains(p) && in_a_body(draft, p); }))
+        if (!any_place(draft, region.bounds(), spacing,
+                       [&](const Vec3& p) { return region.contains(p) && in_a_body(draft, p); }))
         {
             draft.diagnostics.error(draft.zones[i].place, fmt::format("zone '{}' lies outside every body", zone.name),
                                     "refines nothing");
@@ -169,8 +195,7 @@ void check_symmetry(Draft& draft)
 Real slowest_wave(const solver::Problem& problem)
 {
     Real speed = std::numeric_limits<Real>::infinity();
-    for (const material::Material& material : problem.materials)
-        speed = std::min(speed, std::sqrt(material.elastic.wave_modulus() / material.elastic.density));
+    for (const material::Material& material : problem.materials) speed = std::min(speed, material.elastic.wave_speed());
     return speed;
 }
 
@@ -186,8 +211,8 @@ void check_loads(Draft& draft, const refine::Scene& scene, bool materials_sound)
         // A pin holds the wall of its hole: material within one cell of it.
         const bool pin = load.kind == solver::Load::Kind::pin;
         const geometry::Shape reach = pin ? geometry::grown(load.region, problem.grid.cell) : load.region;
-        if (!any_sample(draft, reach.bounds(), problem.grid.cell / 4,
-                        [&](const Vec3& p) { return reach.contains(p) && in_a_body(draft, p); }))
+        if (!any_place(draft, reach.bounds(), problem.grid.cell / 4,
+                       [&](const Vec3& p) { return reach.contains(p) && in_a_body(draft, p); }))
             draft.diagnostics.error(draft.loads[i].place, fmt::format("load '{}' touches no body", load.name),
                                     pin ? "the pin has no wall within one cell" : "no material in its region");
         else if (at_rest && !refine::holds_node(scene, load.region))
@@ -208,14 +233,41 @@ void check_loads(Draft& draft, const refine::Scene& scene, bool materials_sound)
     }
 }
 
+/// Another load of the same nodes replaces what an earlier one prescribes: often a copy whose region was not changed.
+void check_same_regions(Draft& draft)
+{
+    const std::vector<solver::Load>& loads = draft.problem.loads;
+    const auto region_of = [&](const solver::Load& load) {
+        const Node* written = draft.resolved.find("load")->find(load.name);
+        const Node* region = written->find("region");
+        return write_value(region ? *region : *written->find("pin"));
+    };
+    const auto differ = [](const solver::Load& a, const solver::Load& b, std::size_t axis) {
+        if (!a.velocity[axis] || !b.velocity[axis]) return false;
+        const bool same_ramp = a.ramp.kind == b.ramp.kind && a.ramp.time == b.ramp.time;
+        return *a.velocity[axis] != *b.velocity[axis] || (*a.velocity[axis] != 0 && !same_ramp);
+    };
+    for (std::size_t i = 0; i < loads.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                if (!draft.loads[i].sound || !draft.loads[j].sound || !differ(loads[i], loads[j], axis)) continue;
+                if (region_of(loads[i]) != region_of(loads[j])) continue;
+                draft.diagnostics.warning(
+                    draft.loads[i].place,
+                    fmt::format("load '{}' has the region of load '{}' and another velocity along {}", loads[i].name,
+                                loads[j].name, "xyz"[axis]),
+                    "the last one in the case prescribes it");
+            }
+}
+
 void check_surface_loads(Draft& draft)
 {
     const solver::Problem& problem = draft.problem;
     for (std::size_t i = 0; i < problem.surface_loads.size(); ++i) {
         if (!draft.surface_loads[i].sound) continue;
         const geometry::Shape reach = geometry::grown(problem.surface_loads[i].region, problem.grid.cell);
-        if (!any_sample(draft, reach.bounds(), problem.grid.cell / 4,
-                        [&](const Vec3& p) { return reach.contains(p) && in_a_body(draft, p); }))
+        if (!any_place(draft, reach.bounds(), problem.grid.cell / 4,
+                       [&](const Vec3& p) { return reach.contains(p) && in_a_body(draft, p); }))
             draft.diagnostics.error(draft.surface_loads[i].place,
                                     fmt::format("load '{}' touches no body", problem.surface_loads[i].name),
                                     "no material within a cell of its region");
@@ -278,6 +330,36 @@ void check_forces(Draft& draft)
                                   "name the loads: [forces] upper = \"...\", lower = \"...\"");
 }
 
+/// A ball that holds no more than its cell leaves the strengths to the cells; one larger than the body is a slip.
+void check_nonlocal_radius(Draft& draft)
+{
+    const solver::Problem& problem = draft.problem;
+    const Real finest = finest_cell(problem.grid);
+    for (std::size_t m = 0; m < problem.materials.size(); ++m) {
+        const material::Material& material = problem.materials[m];
+        if (!draft.materials[m].sound || !material.decohesion || material.decohesion->nonlocal_radius <= 0) continue;
+        const Real radius = material.decohesion->nonlocal_radius;
+        Real largest = 0;
+        for (const solver::Body& body : problem.bodies)
+            if (body.material == static_cast<int>(m))
+                largest = std::max(largest, (body.shape.bounds().upper - body.shape.bounds().lower).maxCoeff());
+        const Node* law = draft.root.find("material")->find(material.name)->find("decohesion");
+        const Place& place = law->find("nonlocal_radius")->place;
+        if (radius < finest * (1 - 1e-9))
+            draft.diagnostics.warning(place,
+                                      fmt::format("nonlocal_radius {:.4g} mm is below the finest cells, {:.4g} mm: the "
+                                                  "mean is that of one cell",
+                                                  radius, finest),
+                                      "at least two cells, or strengths hang on the cells");
+        if (largest > 0 && radius > largest)
+            draft.diagnostics.warning(place,
+                                      fmt::format("nonlocal_radius {:.4g} mm is more than the bodies of '{}' are long, "
+                                                  "{:.4g} mm",
+                                                  radius, material.name, largest),
+                                      "the mean is that of all of them");
+    }
+}
+
 void check_subcycling(Draft& draft)
 {
     if (!draft.problem.numerics.subcycling || !solver::has_external_forces(draft.problem)) return;
@@ -303,7 +385,9 @@ void check_case(Draft& draft)
     if (!check_particle_count(draft, scene) || !check_bodies(draft, scene)) return;
     check_zones(draft, scene);
     check_loads(draft, scene, all_sound(draft.materials) && !draft.materials.empty());
+    check_same_regions(draft);
     check_surface_loads(draft);
+    check_nonlocal_radius(draft);
     check_subcycling(draft);
     check_gauge(draft);
     check_measures(draft);

@@ -52,6 +52,7 @@ int material_index(Draft& draft, const std::string& name, const Place& place)
     const material::Material* found = find_material(draft, name, place);
     return found ? static_cast<int>(found - draft.problem.materials.data()) : 0;
 }
+
 void unknown_name(Draft& draft, const Place& place, std::string_view kind, std::string_view name,
                   const std::vector<std::string>& candidates)
 {
@@ -70,6 +71,27 @@ void for_each_item(Draft& draft, const Node* list, const std::string& name,
         return;
     }
     for (const Node& item : list->items) visit(item);
+}
+
+void for_each_named(Draft& draft, const Node& table, std::string_view kind,
+                    const std::function<void(const Entry& entry)>& read)
+{
+    // Begun by a dotted key: one that an override writes as a whole, { ... }, is meant to be new.
+    const auto begun = [&](const Entry& entry) {
+        return draft.diagnostics.source_name(entry.place) == override_source && entry.value.section;
+    };
+    std::vector<std::string> names;
+    for (const Entry& entry : table.entries)
+        if (!begun(entry)) names.push_back(entry.key);
+    for (const Entry& entry : table.entries) {
+        const std::size_t before = draft.diagnostics.error_count();
+        read(entry);
+        if (draft.diagnostics.error_count() == before || names.empty() || !begun(entry)) continue;
+        draft.diagnostics.forget_errors(before);
+        draft.diagnostics.key_error(entry.place, fmt::format("there is no {} '{}'", kind, entry.key),
+                                    nearest_hint(entry.key, names),
+                                    {fmt::format("{}s here: {}; a new one needs more keys", kind, joined(names))});
+    }
 }
 
 void keep(Draft& draft, const std::vector<std::string>& path, Node section)

@@ -88,6 +88,11 @@ void unknown_name(Draft& draft, const Place& place, std::string_view kind, std::
 void for_each_item(Draft& draft, const Node* list, const std::string& name,
                    const std::function<void(const Node& item)>& visit);
 
+/// Read the tables of [kind.NAME] in order. Errors of one that overrides begin but do not complete become one: its name
+/// is misspelt. Without another of that kind they stay: there is nothing that could be meant.
+void for_each_named(Draft& draft, const Node& table, std::string_view kind,
+                    const std::function<void(const Entry& entry)>& read);
+
 /// Put a section into the resolved tree: [path] for tables, one more [[path]] for arrays of tables.
 void keep(Draft& draft, const std::vector<std::string>& path, Node section);
 void keep_item(Draft& draft, const std::vector<std::string>& path, Node section);

@@ -9,8 +9,8 @@ void read_grid(Draft& draft)
     SectionReader section(draft.diagnostics, draft.root.find("grid"), "grid", "grid", draft.root.place);
     solver::Grid& grid = draft.problem.grid;
     grid.cell = section.real("cell");
-    grid.levels = static_cast<int>(section.integer("levels"));
-    grid.particles_per_cell = static_cast<int>(section.integer("particles_per_cell"));
+    grid.levels = section.integer("levels");
+    grid.particles_per_cell = section.integer("particles_per_cell");
     grid.origin = section.vector("origin");
     grid.edge = section.choice<solver::EdgeTreatment>("edge");
     if (grid.levels > 8)
@@ -35,10 +35,14 @@ void read_zones(Draft& draft)
         solver::Zone zone;
         zone.name = section.text("name");
         zone.shape = read_shape(draft, section, "shape");
-        zone.level = static_cast<int>(section.integer("level"));
+        zone.level = section.integer("level");
         zone.margin = section.real("margin");
         if (zone.name.empty()) zone.name = fmt::format("zone {}", draft.problem.zones.size());
         section.record("name", node(std::string_view(zone.name)));
+        // Of two levels they may be one refined twice.
+        for (const solver::Zone& other : draft.problem.zones)
+            if (other.name == zone.name && other.level == zone.level)
+                section.error("name", fmt::format("there are two zones '{}' of level {}", zone.name, zone.level));
         if (draft.grid.sound && section.sound() && zone.level > draft.problem.grid.levels - 1)
             section.error("level",
                           fmt::format("zone '{}' asks for level {}, but the finest is {}", zone.name, zone.level,

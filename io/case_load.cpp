@@ -19,9 +19,7 @@ solver::Ramp read_ramp(Draft& draft, SectionReader& load)
         section.error("time", step ? "a step has no duration" : "this ramp needs a time > 0",
                       "such as time = \"0.05 ms\"");
     section.finish();
-    Node resolved = section.resolved();
-    resolved.section = false;
-    load.record("ramp", std::move(resolved));
+    load.record("ramp", section);
     return ramp;
 }
 
@@ -46,9 +44,7 @@ void read_pin(Draft& draft, SectionReader& load, solver::Load& out)
             out.region = feature->shape;
         }
     section.finish();
-    Node resolved = section.resolved();
-    resolved.section = false;
-    load.record("pin", std::move(resolved));
+    load.record("pin", section);
 }
 
 void read_surface_load(Draft& draft, SectionReader& section, const std::string& name)
@@ -114,6 +110,6 @@ void read_loads(Draft& draft)
         draft.diagnostics.error(loads->place, "loads have names", "write [load.NAME]");
         return;
     }
-    for (const Entry& entry : loads->entries) read_load(draft, entry);
+    for_each_named(draft, *loads, "load", [&](const Entry& entry) { read_load(draft, entry); });
 }
 } // namespace io

@@ -65,7 +65,8 @@ material::Decohesion read_decohesion(Draft& draft, SectionReader& section)
     material::Decohesion law;
     const Preset preset = section.choice<Preset>("preset");
     const Mode mode = section.choice<Mode>("mode");
-    const bool as_paper = preset == Preset::paper;
+    // After a misspelt name nothing is missed: the paper's constants stand in for what was meant.
+    const bool as_paper = preset == Preset::paper || !section.sound();
     law.s_max =
         read_strength(section, "s_max", mode == Mode::shear, as_paper ? std::optional(paper::s_max) : std::nullopt);
     law.tau_max = read_strength(section, "tau_max", mode == Mode::opening,
@@ -169,6 +170,6 @@ void read_materials(Draft& draft)
                                 "add a table [material.NAME]");
         return;
     }
-    for (const Entry& entry : materials->entries) read_material(draft, entry);
+    for_each_named(draft, *materials, "material", [&](const Entry& entry) { read_material(draft, entry); });
 }
 } // namespace io

@@ -58,6 +58,9 @@ void read_ligament(Draft& draft, const Node& item)
     const solver::Feature* from = section.sound() ? find_feature(draft, ligament.from, section.place("from")) : nullptr;
     const solver::Feature* to = section.sound() ? find_feature(draft, ligament.to, section.place("to")) : nullptr;
     if (from && to && from == to) section.error("to", "a ligament joins two different features");
+    for (const solver::Ligament& other : draft.problem.ligaments)
+        if (from && to && from != to && std::minmax(other.from, other.to) == std::minmax(ligament.from, ligament.to))
+            section.error("from", fmt::format("there are two ligaments of '{}' and '{}'", ligament.from, ligament.to));
     if (from && to && from != to && draft.grid.sound && ligament.corridor.empty()) {
         const Real used = width ? *width : default_width(draft.problem.grid, *from, *to);
         ligament.corridor = rectangle(from->centre, to->centre, ligament.through, used);
@@ -112,6 +115,9 @@ void read_forces(Draft& draft)
     draft.problem.force_axis = section.axis("axis");
     for (const std::string_view side : {"upper", "lower"})
         if (section.has(side) && section.sound()) check_load_name(draft, section.find(side)->text, section.place(side));
+    if (section.sound() && section.has("upper") && draft.problem.force_upper == draft.problem.force_lower)
+        section.error("lower", fmt::format("'upper' and 'lower' are the same load '{}'", draft.problem.force_lower),
+                      "leave one of them out: the other is the force then");
     if (!section.has("upper") && !section.has("lower"))
         section.error("upper", "[forces] names no load", "add upper or lower = a load's name");
     section.finish();
@@ -129,7 +135,7 @@ void read_crack(Draft& draft)
     const Node* table = draft.root.find("crack");
     if (!table) return;
     SectionReader section(draft.diagnostics, table, "crack", "crack", table->place);
-    draft.problem.start_features = section.names("start");
+    draft.problem.start_features = section.distinct_names("start");
     for (std::size_t i = 0; section.sound() && i < draft.problem.start_features.size(); ++i)
         (void)find_feature(draft, draft.problem.start_features[i], section.find("start")->items[i].place);
     draft.problem.mean_over = section.real("mean_over");

@@ -57,7 +57,7 @@ solver::BoxWave read_box_wave(SectionReader& section)
     wave.corner = section.vector("corner");
     wave.edge = section.real("edge");
     wave.amplitude = section.real("amplitude");
-    wave.half_waves = static_cast<int>(section.integer("half_waves"));
+    wave.half_waves = section.integer("half_waves");
     wave.phase = section.vector("phase");
     return wave;
 }
@@ -100,9 +100,7 @@ bool try_kind(Draft& draft, SectionReader& section, std::string_view name, const
                       fmt::format("{}.{}", section.path(), name), value->place);
     motion.kind = read(own);
     own.finish();
-    Node resolved = own.resolved();
-    resolved.section = false;
-    section.record(name, std::move(resolved));
+    section.record(name, own);
     return true;
 }
 
@@ -143,7 +141,7 @@ void read_motions(Draft& draft)
         draft.diagnostics.error(motions->place, "motions have names", "write [motion.NAME]");
         return;
     }
-    for (const Entry& entry : motions->entries) read_motion(draft, entry);
+    for_each_named(draft, *motions, "motion", [&](const Entry& entry) { read_motion(draft, entry); });
 }
 
 std::optional<int> find_motion(Draft& draft, SectionReader& section, std::string_view key)

@@ -88,8 +88,18 @@ Kind read_load(Draft& draft, SectionReader& section)
     const auto index = static_cast<std::size_t>(found - names.begin());
     quantity.on_surface = index >= moving;
     quantity.load = quantity.on_surface ? index - moving : index;
-    if (quantity.on_surface && quantity.what != solver::LoadQuantity::What::force)
-        section.error("what", "a load on a surface has a force only");
+    if (quantity.on_surface) {
+        if (quantity.what != solver::LoadQuantity::What::force)
+            section.error("what", "a load on a surface has a force only");
+        return quantity;
+    }
+    const bool known = section.sound() && draft.loads[quantity.load].sound;
+    const auto axis = static_cast<std::size_t>(quantity.component);
+    if (known && quantity.what == solver::LoadQuantity::What::displacement &&
+        !draft.problem.loads[quantity.load].velocity[axis])
+        section.error("component",
+                      fmt::format("load '{}' leaves {} free: its displacement there is 0", name, "xyz"[axis]),
+                      "a probe has that of the material");
     return quantity;
 }
 
@@ -149,6 +159,9 @@ Kind read_crack(Draft& draft, SectionReader& section)
     crack.what = section.choice<solver::CrackQuantity::What>("what");
     crack.axis = section.axis("axis");
     crack.region = read_region(draft, section);
+    if (section.sound() && section.has("region") && crack.what == solver::CrackQuantity::What::energy)
+        section.error("region", "the energy of cracks is kept for the whole model",
+                      "what = \"softening\" is that within a region, less what was stored");
     return crack;
 }
 
@@ -173,11 +186,13 @@ constexpr Reader readers[] = {
     {"ratio", read_ratio},
 };
 
-solver::Reduction read_reduction(SectionReader& section)
+solver::Reduction read_reduction(Draft& draft, SectionReader& section)
 {
     using At = solver::Reduction::At;
     solver::Reduction reduction;
+    const std::size_t before = draft.diagnostics.error_count();
     reduction.at = section.choice<At>("at");
+    const bool known = draft.diagnostics.error_count() == before;
     reduction.time = section.optional_real("time");
     reduction.from = section.optional_real("from");
     reduction.until = section.optional_real("until");
@@ -186,6 +201,7 @@ solver::Reduction read_reduction(SectionReader& section)
     if (reduction.time && section.has("at")) section.error("time", "a measure has either 'at' or 'time'");
     if (reduction.from && reduction.until && *reduction.from >= *reduction.until)
         section.error("until", "the window ends before it begins");
+    if (!known) return reduction;
     if ((reduction.at == At::fourier) != section.has("frequency"))
         section.error("frequency", "'frequency' and at = \"fourier\" belong together");
     if ((reduction.at == At::when_max || reduction.at == At::when_min) != section.has("of"))
@@ -200,11 +216,15 @@ void check_name(Draft& draft, SectionReader& section, const std::string& name)
         section.error("name", fmt::format("'{}' is not a name for a measure", name), "use letters, digits and _");
     for (const solver::Quantity& other : draft.problem.quantities)
         if (other.name == name) section.error("name", fmt::format("there are two measures '{}'", name));
-    constexpr std::string_view taken[] = {"peak_force_N", "crack_path", "energy_residual", "step", "time_ms"};
+    // Measures of every run, columns of probes.csv and sweep.csv, and what `cleave metric` says of a run itself.
+    constexpr std::string_view taken[] = {"peak_force_N", "crack_path", "energy_residual", "step",   "time_ms",
+                                          "run",          "status",     "distance",        "wall_s", "title",
+                                          "overrides",    "reason",     "errors"};
     const auto& events = solver::event_measures;
     if (std::find(std::begin(taken), std::end(taken), name) != std::end(taken) ||
         std::find(events.begin(), events.end(), name) != events.end())
-        section.error("name", fmt::format("'{}' is measured in every run already", name), "choose another name");
+        section.error("name", fmt::format("'{}' has a meaning in the results of every run already", name),
+                      "choose another name");
 }
 
 void read_quantity(Draft& draft, const Node& item)
@@ -222,9 +242,7 @@ void read_quantity(Draft& draft, const Node& item)
                           fmt::format("measure.{}", reader.name), value->place);
         quantity.kind = reader.read(draft, own);
         own.finish();
-        Node resolved = own.resolved();
-        resolved.section = false;
-        section.record(reader.name, std::move(resolved));
+        section.record(reader.name, own);
     }
     if (kinds != 1) {
         std::vector<std::string> names;
@@ -232,7 +250,7 @@ void read_quantity(Draft& draft, const Node& item)
         draft.diagnostics.error(item.place, "a measure must name exactly one kind", "",
                                 {fmt::format("kinds: {}     (cleave keys measure)", joined(names))});
     }
-    quantity.reduction = read_reduction(section);
+    quantity.reduction = read_reduction(draft, section);
     quantity.scale = section.real("scale");
     quantity.reference = section.optional_real("reference");
     quantity.tolerance = section.optional_real("tolerance");

@@ -122,23 +122,23 @@ void read_output(Draft& draft)
     read_part(draft, table, "probes", [&](SectionReader& section) { output.probes = read_every(draft, section); });
     read_part(draft, table, "particles", [&](SectionReader& section) {
         output.particles = read_every(draft, section);
-        output.particle_fields = section.names("fields");
+        output.particle_fields = section.distinct_names("fields");
         output.particle_precision = section.choice_name("precision");
         check_particle_fields(draft, section, output.particle_fields);
     });
     read_part(draft, table, "grid", [&](SectionReader& section) {
         output.grid = read_every(draft, section);
-        output.grid_fields = section.names("fields");
+        output.grid_fields = section.distinct_names("fields");
     });
     read_part(draft, table, "vdb", [&](SectionReader& section) {
         output.vdb = read_every(draft, section);
-        output.vdb_grids = section.names("grids");
+        output.vdb_grids = section.distinct_names("grids");
         output.vdb_preset = section.choice_name("preset");
         output.vdb_scale = section.real("scale");
     });
     read_part(draft, table, "checkpoint", [&](SectionReader& section) {
         output.checkpoint_every_wall = section.real("every_wall");
-        output.checkpoint_keep = static_cast<int>(section.integer("keep"));
+        output.checkpoint_keep = section.integer("keep");
         output.checkpoint_at_end = section.boolean("at_end");
     });
 }

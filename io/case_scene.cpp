@@ -43,7 +43,8 @@ void read_features(Draft& draft)
     const Node* features = draft.root.find("feature");
     if (!features) return;
     if (features->kind == Node::Kind::table)
-        for (const Entry& entry : features->entries) read_feature(draft, entry.value, entry.key, entry.place);
+        for_each_named(draft, *features, "feature",
+                       [&](const Entry& entry) { read_feature(draft, entry.value, entry.key, entry.place); });
     else
         for_each_item(draft, features, "feature", [&](const Node& item) { read_feature(draft, item, "", item.place); });
 }
@@ -56,6 +57,8 @@ void read_bodies(Draft& draft)
         body.name = section.text("name");
         if (body.name.empty()) body.name = fmt::format("body {}", draft.problem.bodies.size());
         section.record("name", node(std::string_view(body.name)));
+        for (const solver::Body& other : draft.problem.bodies)
+            if (other.name == body.name) section.error("name", fmt::format("there are two bodies '{}'", body.name));
         body.shape = read_shape(draft, section, "shape");
         const std::string material = section.text("material");
         if (section.has("material") && !material.empty())

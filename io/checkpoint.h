@@ -7,21 +7,31 @@
 /// and [output.checkpoint] may differ: a run that has ended can go on further.
 #pragma once
 
+#include "io/numbered_files.h"
 #include "solver/state.h"
 
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace io
 {
+inline constexpr NumberedFiles checkpoint_files{"checkpoint", "ck_", 6, ".h5", "latest"};
+
 /// What a checkpoint must agree with.
 struct CheckpointCase
 {
     std::string resolved; // text of resolved.toml
     std::string version;  // of the program
 };
+
+/// Compare the resolved text of another run with that of this one, without the sections that change no step.
+///
+/// @param source  file the other text is from
+/// @error InputError with the first line that differs
+void require_same_case(const std::filesystem::path& source, std::string_view there, const CheckpointCase& of_case);
 
 /// Write a checkpoint, point `latest` at it and remove all but the newest `keep` up to its step. Later ones, left over
 /// from another run in this directory, go too.

@@ -305,6 +305,8 @@ void store_state(const solver::State& state, Hdf5Writer& file)
     file.group("/gauge");
     store("/gauge/upper", state.gauge_upper, 1, file);
     store("/gauge/lower", state.gauge_lower, 1, file);
+    file.attribute("/gauge", "start", state.gauge_start);
+    file.attribute("/gauge", "largest_opening", state.largest_opening);
 }
 
 solver::State load_state(const Hdf5Reader& file)
@@ -326,6 +328,8 @@ solver::State load_state(const Hdf5Reader& file)
     state.history = load_history(state.levels.count, file);
     state.gauge_upper = file.dataset<std::uint32_t>("/gauge/upper");
     state.gauge_lower = file.dataset<std::uint32_t>("/gauge/lower");
+    state.gauge_start = file.attribute<Real>("/gauge", "start").at(0);
+    state.largest_opening = file.attribute<Real>("/gauge", "largest_opening").at(0);
     return state;
 }
 } // namespace io

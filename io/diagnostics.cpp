@@ -24,6 +24,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b)
         }
     return cost[a.size()][b.size()];
 }
+
+/// A line as it may be shown: what would command the terminal, as in a file that is no text, becomes '?'.
+std::string printable(std::string line)
+{
+    for (char& c : line)
+        if ((static_cast<unsigned char>(c) < ' ' && c != '\t') || c == '\x7f') c = '?';
+    return line;
+}
 } // namespace
 
 int Diagnostics::add_source(std::string name, std::string_view text)
@@ -46,9 +54,32 @@ void Diagnostics::error(const Place& place, std::string message, std::string bes
     errors_.push_back({place, std::move(message), std::move(beside), std::move(notes)});
 }
 
+void Diagnostics::key_error(const Place& place, std::string message, std::string beside, std::vector<std::string> notes)
+{
+    errors_.push_back({place, std::move(message), std::move(beside), std::move(notes), true});
+}
+
 void Diagnostics::warning(const Place& place, std::string message, std::string beside)
 {
     warnings_.push_back({place, std::move(message), std::move(beside), {}});
+}
+
+void Diagnostics::forget_errors(std::size_t count)
+{
+    errors_.erase(errors_.begin() + static_cast<std::ptrdiff_t>(std::min(count, errors_.size())), errors_.end());
+}
+
+std::string_view Diagnostics::source_name(const Place& place) const
+{
+    return place.file < 0 ? std::string_view() : std::string_view(sources_[static_cast<std::size_t>(place.file)].name);
+}
+
+std::optional<Complaint> Diagnostics::key_error_in(std::size_t source) const
+{
+    const auto found = std::find_if(errors_.begin(), errors_.end(), [&](const Complaint& one) {
+        return one.of_key && one.place.file == static_cast<int>(source);
+    });
+    return found == errors_.end() ? std::nullopt : std::optional(*found);
 }
 
 std::string Diagnostics::format(const Complaint& complaint, std::string_view kind) const
@@ -61,7 +92,7 @@ std::string Diagnostics::format(const Complaint& complaint, std::string_view kin
         const Source& source = sources_[static_cast<std::size_t>(place.file)];
         text = fmt::format("{}:{}:{}: {}: {}\n", source.name, place.line, place.column, kind, complaint.message);
         const auto line = static_cast<std::size_t>(std::max(place.line, 1)) - 1;
-        const std::string quoted = line < source.lines.size() ? source.lines[line] : std::string();
+        const std::string quoted = line < source.lines.size() ? printable(source.lines[line]) : std::string();
         // Tabs stay tabs under the line, so that the caret stands where the eye expects it.
         std::string lead = quoted.substr(0, std::min(quoted.size(), static_cast<std::size_t>(place.column - 1)));
         for (char& c : lead)

@@ -6,6 +6,7 @@
 ///      keys here: ...
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,14 @@ struct Place
     int length = 1; // characters to underline
 };
 
+struct Complaint
+{
+    Place place;
+    std::string message, beside;
+    std::vector<std::string> notes;
+    bool of_key = false; // about a name that is no key or item there, whatever its value
+};
+
 class Diagnostics
 {
 public:
@@ -30,9 +39,19 @@ public:
     /// @param beside  stands beside the caret ("did you mean 'tau_max'?")
     /// @param notes   lines below it
     void error(const Place& place, std::string message, std::string beside = "", std::vector<std::string> notes = {});
+    /// The same about a name that is no key or item there, whatever its value.
+    void key_error(const Place& place, std::string message, std::string beside = "",
+                   std::vector<std::string> notes = {});
     void warning(const Place& place, std::string message, std::string beside = "");
 
     std::size_t error_count() const { return errors_.size(); }
+    /// Keep the first `count` errors only: what followed was one mistake, to be told as such.
+    void forget_errors(std::size_t count);
+    /// Name of the text that a place is in; empty for no place.
+    std::string_view source_name(const Place& place) const;
+    std::size_t source_count() const { return sources_.size(); }
+    /// The first error about a name in a text; nothing if there is none.
+    std::optional<Complaint> key_error_in(std::size_t source) const;
     /// Every error in the order of files and lines, with a last line that counts them.
     std::string error_text() const;
     std::vector<std::string> warning_texts() const;
@@ -42,12 +61,6 @@ private:
     {
         std::string name;
         std::vector<std::string> lines;
-    };
-    struct Complaint
-    {
-        Place place;
-        std::string message, beside;
-        std::vector<std::string> notes;
     };
     std::string format(const Complaint& complaint, std::string_view kind) const;
 

@@ -77,8 +77,8 @@ void overlay(Node& base, Node top, Diagnostics& diagnostics)
         else if (base.kind == Node::Kind::table)
             below = base.find(entry.key);
         else {
-            diagnostics.error(entry.place, fmt::format("no item '{}' here", entry.key),
-                              fmt::format("items 0 to {}", static_cast<long>(base.items.size()) - 1));
+            diagnostics.key_error(entry.place, fmt::format("no item '{}' here", entry.key),
+                                  fmt::format("items 0 to {}", static_cast<long>(base.items.size()) - 1));
             continue;
         }
         const bool table_above = entry.value.kind == Node::Kind::table;
@@ -117,7 +117,8 @@ public:
         try {
             return converted(toml::parse(std::string_view(text), std::move(name)), number);
         } catch (const toml::parse_error& problem) {
-            diagnostics_.error(place_of(problem.source(), number), std::string(problem.description()));
+            // Of an override the key only: a value that is not TOML is text (apply_override).
+            diagnostics_.key_error(place_of(problem.source(), number), std::string(problem.description()));
         }
         return {};
     }
@@ -153,8 +154,8 @@ void apply_override(Node& root, const std::string& text, Loader& loader, Diagnos
 {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
-        const int number = diagnostics.add_source("--set", text);
-        diagnostics.error({number, 1, 1, static_cast<int>(text.size())}, "an override reads key=value");
+        const int number = diagnostics.add_source(std::string(override_source), text);
+        diagnostics.key_error({number, 1, 1, static_cast<int>(text.size())}, "an override reads key=value");
         return;
     }
     const std::string value = text.substr(equals + 1);
@@ -164,7 +165,7 @@ void apply_override(Node& root, const std::string& text, Loader& loader, Diagnos
     } catch (const toml::parse_error&) {
         line = fmt::format("{}={}", text.substr(0, equals), write_value(node(std::string_view(value))));
     }
-    overlay(root, loader.parse(line, "--set"), diagnostics);
+    overlay(root, loader.parse(line, std::string(override_source)), diagnostics);
 }
 } // namespace
 

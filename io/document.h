@@ -58,6 +58,9 @@ Node node(Real value);
 Node node(std::string_view value);
 Node list_of(std::vector<Node> items);
 
+/// What complaints about overrides name instead of a file.
+inline constexpr std::string_view override_source = "--set";
+
 /// Read a case file with what it includes, then apply overrides "grid.cell=0.5" (a value that is not TOML is text, so
 /// that `end.time=0.2 ms` works; tables of an array are counted from 0: "refine.zone.0.level=2").
 ///

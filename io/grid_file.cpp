@@ -17,7 +17,6 @@ namespace io
 {
 namespace
 {
-constexpr const char* series_name = "grid.hdf.series";
 constexpr std::uint8_t vtk_refined_cell = 8; // vtkDataSetAttributes::REFINEDCELL
 
 std::string group_of(std::size_t level)
@@ -126,7 +125,7 @@ std::filesystem::path write_grid_frame(const std::filesystem::path& directory, c
                                        const GridFileOptions& options)
 {
     make_directory(directory);
-    const std::string name = fmt::format("g_{:06}.hdf", clock.step);
+    const std::string name = grid_files.name(clock.step);
     const std::vector<GridCells> cells = grid_cells(levels);
     const Index3 first = first_cell(cells);
     const Vec3 corner = levels.origin + first.cast<Real>() * levels.spacing0;
@@ -144,12 +143,7 @@ std::filesystem::path write_grid_frame(const std::filesystem::path& directory, c
     write_fields(particles, levels, options, cells, order, file);
     file.commit();
 
-    enter_frame(directory / series_name, {name, clock.time});
+    enter_frame(directory / grid_files.list, {name, clock.time});
     return directory / name;
-}
-
-void rewind_grid_series(const std::filesystem::path& directory, Real time)
-{
-    rewind_series(directory / series_name, time);
 }
 } // namespace io

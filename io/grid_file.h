@@ -13,6 +13,7 @@
 #pragma once
 
 #include "grid/levels.h"
+#include "io/numbered_files.h"
 #include "particles/particles.h"
 #include "solver/state.h"
 
@@ -24,6 +25,8 @@
 
 namespace io
 {
+inline constexpr NumberedFiles grid_files{"grid", "g_", 6, ".hdf", "grid.hdf.series"};
+
 /// Names for `output.grid.fields`: density is mass over the volume of the cell, the others are means over the particles
 /// at home in it, weighted by mass, with the units and components of io/particle_fields.h.
 inline constexpr std::array<std::string_view, 7> grid_field_names{
@@ -43,7 +46,4 @@ struct GridFileOptions
 std::filesystem::path write_grid_frame(const std::filesystem::path& directory, const particles::Particles& particles,
                                        const grid::Levels& levels, const solver::Clock& clock,
                                        const GridFileOptions& options);
-
-/// Drop the frames later than `time` [ms] from the series file, so that a resumed run enters them again.
-void rewind_grid_series(const std::filesystem::path& directory, Real time);
 } // namespace io

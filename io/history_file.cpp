@@ -58,6 +58,13 @@ bool parse(std::string_view text, T& value)
     return error == std::errc() && end == text.data() + text.size();
 }
 
+std::vector<std::string> history_texts(const std::vector<HistoryLine>& history)
+{
+    std::vector<std::string> lines;
+    for (const HistoryLine& line : history) lines.push_back(history_text(line));
+    return lines;
+}
+
 bool parse_line(std::string_view text, std::size_t levels, HistoryLine& line)
 {
     const std::vector<std::string_view> cells = split(text);
@@ -113,10 +120,8 @@ std::vector<HistoryLine> read_history(const std::filesystem::path& path)
     return history;
 }
 
-HistoryFile::HistoryFile(const std::filesystem::path& path, int levels) : file_(path, history_header(levels)) {}
-
-HistoryFile::HistoryFile(const std::filesystem::path& path, int levels, std::int64_t step)
-    : file_(path, history_header(levels), step)
+HistoryFile::HistoryFile(const std::filesystem::path& path, int levels, const std::vector<HistoryLine>& history)
+    : file_(path, history_header(levels), history_texts(history))
 {}
 
 void HistoryFile::append(const HistoryLine& line)

@@ -4,7 +4,6 @@
 #include "io/line_file.h"
 #include "solver/state.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -25,11 +24,8 @@ std::vector<solver::HistoryLine> read_history(const std::filesystem::path& path)
 class HistoryFile
 {
 public:
-    /// Start a new file, replacing an old one.
-    HistoryFile(const std::filesystem::path& path, int levels);
-    /// Go on with an existing file after `step`: later lines, and one cut short, are dropped. Without a file: a new
-    /// one.
-    HistoryFile(const std::filesystem::path& path, int levels, std::int64_t step);
+    /// Replace the file by the history there is already: what stands in a checkpoint does not hang on the old file.
+    HistoryFile(const std::filesystem::path& path, int levels, const std::vector<solver::HistoryLine>& history);
 
     /// Append one line.
     /// @error FileError

@@ -573,7 +573,8 @@ constexpr Key keys[] = {
         finite,
         "energy|softening|separated|volume|area|angle|length|tip|onset_time"},
     Key{"measure.crack", "axis", axis, defaulted, "\"z\"", "of angle, length and tip"},
-    Key{"measure.crack", "region", shape, optional, "", "particles that were in it at time 0; absent: all"},
+    Key{"measure.crack", "region", shape, optional, "",
+        "particles that were in it at time 0; absent: all; not of energy"},
     Key{"measure.ratio", "of", text, required, "", "a measure"},
     Key{"measure.ratio", "over", text, required, "", "another measure"},
 
@@ -632,7 +633,7 @@ constexpr Key keys[] = {
         choice,
         defaulted,
         "\"blender\"",
-        "naming and axes of the target program",
+        "the program that reads them: houdini renames velocity to vel; axes are those of the case",
         {},
         finite,
         "blender|houdini"},

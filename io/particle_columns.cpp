@@ -1,11 +1,11 @@
 #include "io/particle_columns.h"
 
 #include "core/contract.h"
+#include "core/equivalent_stress.h"
 #include "core/tensor.h"
 #include "particles/tensors.h"
 
 #include <array>
-#include <cmath>
 #include <functional>
 
 namespace io
@@ -51,13 +51,9 @@ std::vector<Real> from_cracks(const Particles& particles, std::size_t components
 
 std::vector<Real> von_mises(const Particles& particles)
 {
-    const auto& s = particles.stress;
     std::vector<Real> column(particles.size());
-    for (std::size_t p = 0; p < column.size(); ++p) {
-        const Real xy = s[0][p] - s[1][p], yz = s[1][p] - s[2][p], zx = s[2][p] - s[0][p];
-        const Real shear = s[3][p] * s[3][p] + s[4][p] * s[4][p] + s[5][p] * s[5][p];
-        column[p] = std::sqrt(Real(0.5) * (xy * xy + yz * yz + zx * zx) + 3 * shear);
-    }
+    for (std::size_t p = 0; p < column.size(); ++p)
+        column[p] = core::equivalent_stress(particles::stress_of(particles, p));
     return column;
 }
 

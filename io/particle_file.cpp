@@ -6,15 +6,12 @@
 #include "io/particle_fields.h"
 #include "io/vtkhdf_series.h"
 
-#include <fmt/format.h>
-
 #include <numeric>
 
 namespace io
 {
 namespace
 {
-constexpr const char* series_name = "particles.hdf.series";
 constexpr std::uint8_t vtk_vertex = 1; // VTK cell type
 
 template <class T>
@@ -55,7 +52,7 @@ std::filesystem::path write_particle_frame(const std::filesystem::path& director
                                            const solver::Clock& clock, const ParticleFileOptions& options)
 {
     make_directory(directory);
-    const std::string name = fmt::format("p_{:06}.hdf", clock.step);
+    const std::string name = particle_files.name(clock.step);
     Hdf5Writer file(directory / name);
     write_vtkhdf_head(clock, options.version, "UnstructuredGrid", file);
     const std::vector<Real> side = particle_sides(particles, levels, options.particles_per_cell);
@@ -68,19 +65,14 @@ std::filesystem::path write_particle_frame(const std::filesystem::path& director
         write_fields<double>(particles, levels, options, file);
     file.commit();
 
-    enter_frame(directory / series_name, {name, clock.time});
+    enter_frame(directory / particle_files.list, {name, clock.time});
     return directory / name;
-}
-
-void rewind_particle_series(const std::filesystem::path& directory, Real time)
-{
-    rewind_series(directory / series_name, time);
 }
 
 std::optional<ParticleFrame> read_last_particle_frame(const std::filesystem::path& directory,
                                                       const std::vector<std::string>& fields)
 {
-    const std::vector<SeriesEntry> entries = read_series(directory / series_name);
+    const std::vector<SeriesEntry> entries = read_series(directory / particle_files.list);
     if (entries.empty()) return {};
     const Hdf5Reader file(directory / entries.back().name);
     ParticleFrame frame;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "grid/levels.h"
+#include "io/numbered_files.h"
 #include "particles/particles.h"
 #include "solver/state.h"
 
@@ -20,6 +21,8 @@
 
 namespace io
 {
+inline constexpr NumberedFiles particle_files{"particles", "p_", 6, ".hdf", "particles.hdf.series"};
+
 enum class Precision
 {
     f32,
@@ -42,9 +45,6 @@ struct ParticleFileOptions
 std::filesystem::path write_particle_frame(const std::filesystem::path& directory,
                                            const particles::Particles& particles, const grid::Levels& levels,
                                            const solver::Clock& clock, const ParticleFileOptions& options);
-
-/// Drop the frames later than `time` [ms] from the series file, so that a resumed run enters them again.
-void rewind_particle_series(const std::filesystem::path& directory, Real time);
 
 /// One frame as the report needs it.
 struct ParticleFrame

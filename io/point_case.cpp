@@ -36,9 +36,7 @@ std::array<std::optional<Real>, 6> read_components(Draft& draft, SectionReader& 
     SectionReader section(draft.diagnostics, value, schema, schema, value->place);
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = section.optional_real(solver::component_names[i]);
     section.finish();
-    Node resolved = section.resolved();
-    resolved.section = false;
-    segment.record(name, std::move(resolved));
+    segment.record(name, section);
     return out;
 }
 

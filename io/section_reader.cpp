@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 namespace io
@@ -92,9 +93,13 @@ std::optional<std::int64_t> SectionReader::optional_integer(std::string_view nam
     return found->integer;
 }
 
-std::int64_t SectionReader::integer(std::string_view name)
+int SectionReader::integer(std::string_view name)
 {
-    return optional_integer(name).value_or(1);
+    const std::int64_t value = optional_integer(name).value_or(1);
+    if (std::abs(value) <= std::numeric_limits<int>::max()) return static_cast<int>(value);
+    error(name, fmt::format("'{}' is out of range: {}", name, value),
+          fmt::format("at most {}", std::numeric_limits<int>::max()));
+    return 1;
 }
 
 std::optional<Real> SectionReader::optional_real(std::string_view name)
@@ -213,6 +218,20 @@ std::vector<std::string> SectionReader::names(std::string_view name)
     return out;
 }
 
+std::vector<std::string> SectionReader::distinct_names(std::string_view name)
+{
+    std::vector<std::string> out = names(name), seen;
+    const Node* found = find(name);
+    for (std::size_t i = 0; found && i < found->items.size(); ++i) {
+        const Node& item = found->items[i];
+        if (item.kind != Node::Kind::text) continue;
+        if (std::find(seen.begin(), seen.end(), item.text) != seen.end())
+            diagnostics_.error(item.place, fmt::format("'{}' stands twice in '{}'", item.text, name));
+        seen.push_back(item.text);
+    }
+    return out;
+}
+
 std::vector<Vec3> SectionReader::points(std::string_view name)
 {
     const Key& wanted = key(name);
@@ -269,11 +288,11 @@ FreeVector SectionReader::velocity(std::string_view name, std::optional<int> axi
         for (std::size_t a = 0; a < std::min<std::size_t>(3, found->items.size()); ++a)
             if (const Node& item = found->items[a]; item.kind != Node::Kind::text || item.text != "free")
                 out[a] = read_real(item, component, diagnostics_);
-    } else if (!axis)
+    } else if (axis)
+        out[static_cast<std::size_t>(*axis)] = read_real(*found, component, diagnostics_);
+    else if (!has("axis")) // a wrong one has its complaint
         diagnostics_.error(found->place, fmt::format("a single velocity in [{}] needs a direction", path_),
                            "add axis = \"x\", \"y\" or \"z\", or write three components");
-    else
-        out[static_cast<std::size_t>(*axis)] = read_real(*found, component, diagnostics_);
     std::vector<Node> items;
     for (const std::optional<Real>& speed : out) items.push_back(speed ? node(*speed) : node(std::string_view("free")));
     if (axis && found->kind != Node::Kind::list)
@@ -288,6 +307,13 @@ void SectionReader::error(std::string_view name, std::string message, std::strin
     diagnostics_.error(place(name), std::move(message), std::move(beside));
 }
 
+void SectionReader::record(std::string_view name, const SectionReader& own)
+{
+    Node table = own.resolved();
+    table.section = false;
+    record(name, std::move(table));
+}
+
 void SectionReader::finish()
 {
     if (!table_) return;
@@ -297,7 +323,7 @@ void SectionReader::finish()
         if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
         std::vector<std::string> sorted = known;
         std::sort(sorted.begin(), sorted.end());
-        diagnostics_.error(
+        diagnostics_.key_error(
             entry.place,
             fmt::format("unknown key '{}' {}", entry.key,
                         !path_.empty()    ? fmt::format("in [{}]", path_)

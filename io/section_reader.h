@@ -37,7 +37,7 @@ public:
 
     bool boolean(std::string_view name);
     bool boolean(std::string_view name, bool fallback);
-    std::int64_t integer(std::string_view name);
+    int integer(std::string_view name); // 1 after an error
     std::optional<std::int64_t> optional_integer(std::string_view name);
     Real real(std::string_view name); // NaN after an error
     /// Default that depends on other keys (a preset) instead of the table's.
@@ -57,6 +57,8 @@ public:
     Vec3 vector(std::string_view name);
     std::optional<Vec3> optional_vector(std::string_view name);
     std::vector<std::string> names(std::string_view name);
+    /// Names of which none may stand twice.
+    std::vector<std::string> distinct_names(std::string_view name);
     std::vector<Vec3> points(std::string_view name);
     std::vector<Pair> corners(std::string_view name);
     /// One velocity along `axis`, or three with "free" components.
@@ -67,6 +69,8 @@ public:
 
     /// Write a value into the resolved table; reads do it themselves.
     void record(std::string_view name, Node value) { resolved_.set(name, std::move(value)); }
+    /// The same for a table within this one, once it is read; it is written on the line of its name.
+    void record(std::string_view name, const SectionReader& own);
     /// Complain about keys that no table entry knows. Call when every key is read.
     void finish();
     bool sound() const { return diagnostics_.error_count() == errors_before_; }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace io
@@ -23,6 +24,21 @@ struct Axis
     bool resolution = false; // settings are finer and coarser, not other schemes
     std::vector<Setting> settings;
 };
+
+/// Every combination of one setting of each axis, the last axis fastest, begun with T{}.
+/// @param add  (T& begun, const Axis&, const Setting&)
+template <class T, class Add>
+std::vector<T> combinations(const std::vector<Axis>& axes, Add add)
+{
+    std::vector<T> all(1);
+    for (const Axis& axis : axes) {
+        std::vector<T> longer;
+        for (const T& begun : all)
+            for (const Setting& setting : axis.settings) add(longer.emplace_back(begun), axis, setting);
+        all = std::move(longer);
+    }
+    return all;
+}
 
 /// A run is stable if |number| stays below a bound.
 struct StabilityCriterion

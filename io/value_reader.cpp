@@ -71,7 +71,9 @@ std::optional<Real> read_real(const Node& value, const Key& key, Diagnostics& di
             diagnostics.error(value.place,
                               fmt::format("'{}' is a {}, but '{}' is a {}", value.text,
                                           quantity_name(quantity.dimension), key.name, quantity_name(key.dimension)),
-                              fmt::format("expected {}, such as {}", expected(key), unit_example(key.dimension)));
+                              wall
+                                  ? fmt::format("expected {}", expected(key)) // has its example
+                                  : fmt::format("expected {}, such as {}", expected(key), unit_example(key.dimension)));
             return std::nullopt;
         }
         number = quantity.value;

@@ -4,7 +4,6 @@
 #include "io/atomic_file.h"
 #include "io/voxel_sums.h"
 
-#include <fmt/format.h>
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
@@ -84,11 +83,6 @@ const char* unit_of(const std::string& grid)
     return grid == "velocity" ? "mm/ms" : "1";
 }
 
-std::filesystem::path frame_path(const std::filesystem::path& directory, int frame)
-{
-    return directory / fmt::format("vol_{:04}.vdb", frame);
-}
-
 void write_archive(const std::filesystem::path& path, const openvdb::GridCPtrVec& grids,
                    const openvdb::MetaMap& metadata)
 {
@@ -134,25 +128,26 @@ std::filesystem::path write_vdb_frame(const std::filesystem::path& directory, in
     metadata.insertMeta("units", openvdb::StringMetadata("mm-g-ms"));
     metadata.insertMeta("scene_units_per_mm", openvdb::DoubleMetadata(options.scale));
     metadata.insertMeta("creator", openvdb::StringMetadata(creator));
-    write_archive(frame_path(directory, frame), grids, metadata);
-    return frame_path(directory, frame);
+    write_archive(directory / vdb_files.name(frame), grids, metadata);
+    return directory / vdb_files.name(frame);
 }
 
-int last_vdb_frame(const std::filesystem::path& directory, std::int64_t step)
+VdbFrame last_vdb_frame(const std::filesystem::path& directory, std::int64_t step)
 {
     openvdb::initialize();
-    int last = 0;
-    while (std::filesystem::exists(frame_path(directory, last + 1))) {
-        const std::filesystem::path path = frame_path(directory, last + 1);
+    VdbFrame last;
+    while (true) {
+        const std::filesystem::path path = directory / vdb_files.name(last.number + 1);
+        if (!std::filesystem::exists(path)) return last;
         try {
             openvdb::io::File file(path.string());
             file.open();
-            if (file.getMetadata()->metaValue<std::int64_t>("step") > step) break;
+            const auto own_step = file.getMetadata()->metaValue<std::int64_t>("step");
+            if (own_step > step) return last;
+            last = {last.number + 1, own_step};
         } catch (const openvdb::Exception& error) {
             throw core::FileError("cannot read '" + path.string() + "': " + error.what());
         }
-        ++last;
     }
-    return last;
 }
 } // namespace io

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "grid/levels.h"
+#include "io/numbered_files.h"
 #include "particles/particles.h"
 #include "solver/state.h"
 
@@ -19,6 +20,8 @@
 
 namespace io
 {
+inline constexpr NumberedFiles vdb_files{"vdb", "vol_", 4, ".vdb", ""};
+
 /// Names for `output.vdb.grids`.
 inline constexpr std::array<std::string_view, 4> vdb_grid_names{"density", "damage", "eq_plastic_strain", "velocity"};
 /// Names for `output.vdb.preset`: houdini renames velocity to vel.
@@ -42,7 +45,13 @@ std::filesystem::path write_vdb_frame(const std::filesystem::path& directory, in
                                       const particles::Particles& particles, const grid::Levels& levels,
                                       const solver::Clock& clock, const VdbFileOptions& options);
 
-/// Number of the last frame written at or before `step`, 0 if there is none: a resumed run goes on with the next.
+struct VdbFrame
+{
+    int number = 0; // 0: there is none
+    std::int64_t step = -1;
+};
+
+/// The last frame written at or before `step`: a resumed run goes on with the next.
 /// @error FileError if a frame cannot be read
-int last_vdb_frame(const std::filesystem::path& directory, std::int64_t step);
+VdbFrame last_vdb_frame(const std::filesystem::path& directory, std::int64_t step);
 } // namespace io

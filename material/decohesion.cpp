@@ -105,6 +105,11 @@ double onset_ratio(const Decohesion& law, const Principal& stress, double lode)
     return std::max(s1 / law.s_max, (s1 - s3) / (2 * shear_strength(lode, law.tau_max, axial_rise(law))));
 }
 
+double onset_ratio(const Decohesion& law, const PlaneTraction& traction)
+{
+    return std::max(traction.normal / law.s_max, traction.shear / law.tau_max);
+}
+
 std::optional<Mode> failing_mode(const Decohesion& law, const PlaneTraction& traction)
 {
     return failing_mode(traction.normal > law.s_max, traction.shear > law.tau_max);

@@ -63,6 +63,8 @@ double lode_parameter(const Principal& stress);
 /// (s_1 - s_3) / (2 tau(L)); above 1 where failing_mode names one.
 /// @param lode  1, L of the strength
 double onset_ratio(const Decohesion& law, const Principal& stress, double lode);
+/// The same on a plane that is given: sigma_n / s_max or |tau_t| / tau_max.
+double onset_ratio(const Decohesion& law, const PlaneTraction& traction);
 
 /// Mode that a stress starts, by the three criteria of the paper; none while both strengths hold.
 /// @param lode  1, L of the strength

@@ -32,7 +32,10 @@ double rotate_to_strain(const SeparationLaw& law, Faces<double>& faces)
 
     core::Vec<double> normal = principal(closed).direction[0];
     if (core::dot(normal, faces.normal) < 0) normal = -1.0 * normal;
-    faces.effective_length *= band_width(normal) / band_width(faces.normal);
+    // The strain of the opening stays, not its width: energy is then freed, never taken, by turning.
+    const double widths = band_width(normal) / band_width(faces.normal);
+    faces.effective_length *= widths;
+    faces.opening *= widths;
     faces.normal = normal;
     faces.slip = {};
     const Traction<double> now = taken_by_opening(law, faces);

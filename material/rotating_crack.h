@@ -3,7 +3,7 @@
 /// Elastic strain and opening together are e = C^-1 sigma + sym(n u) / L_e. The plane is turned to the largest
 /// principal value of e, all opening becomes normal opening there, and e stays what it is:
 ///
-///   n <- e_1(e),  u <- u_n n,  L_e <- c_b h sum |n_i|,  sigma <- C (e - u_n n n / L_e)
+///   n <- e_1(e),  L_e <- c_b h sum |n_i|,  u <- (u_n / L_e) L_e n,  sigma <- C (e - u_n n n / L_e)
 ///
 /// Where the principal stresses at onset are nearly equal (ahead of a mode I tip) the first plane is arbitrary, and a
 /// plane fixed there locks: it never sees the stress along it. The strain that opens the crack decides soon. Source:

@@ -5,6 +5,32 @@
 
 namespace particles
 {
+namespace
+{
+/// How many corners of a cube about a point are inside of a shape.
+int corners_inside(const geometry::Shape& shape, const Vec3& at, Real half)
+{
+    int inside = 0;
+    for (int c = 0; c < 8; ++c)
+        inside += shape.contains(at + half * Vec3(c & 4 ? 1 : -1, c & 2 ? 1 : -1, c & 1 ? 1 : -1)) ? 1 : 0;
+    return inside;
+}
+
+/// Share of a cube of that width about a point: 1/2 - d / width where a surface cuts it. A CSG distance also comes near
+/// zero where parts meet within metal or within a void, and there it says nothing of a surface.
+Real share_of_cube(const geometry::Shape& shape, const Vec3& at, Real width)
+{
+    const Real distance = shape.distance(at), share = Real(0.5) - distance / width;
+    if (share <= 0 || share >= 1) return std::clamp(share, Real(0), Real(1));
+    // Corners of a larger cube, so that no curved surface slips between them.
+    const int inside = corners_inside(shape, at, Real(0.75) * width);
+    const bool seam = std::abs(distance) < 1e-6 * width; // the point itself then says nothing
+    if (inside == 8 && (distance < 0 || seam)) return 1;
+    if (inside == 0 && (distance >= 0 || seam)) return 0;
+    return share;
+}
+} // namespace
+
 Real inside_fraction(const geometry::Shape& shape, const Vec3& centre, Real half, EdgeTreatment edge)
 {
     // CSG distances are lower bounds of the true distance, so a large value is a safe decision.
@@ -20,9 +46,8 @@ Real inside_fraction(const geometry::Shape& shape, const Vec3& centre, Real half
             for (int k = 0; k < samples; ++k) {
                 const auto offset = [&](int n) { return half * ((2 * n + 1) / Real(samples) - 1); };
                 const Vec3 at = centre + Vec3(offset(i), offset(j), offset(k));
-                inside += edge == EdgeTreatment::distance
-                              ? std::clamp(Real(0.5) - shape.distance(at) / width, Real(0), Real(1))
-                              : Real(shape.contains(at) ? 1 : 0);
+                inside += edge == EdgeTreatment::distance ? share_of_cube(shape, at, width)
+                                                          : Real(shape.contains(at) ? 1 : 0);
             }
     return inside / (samples * samples * samples);
 }

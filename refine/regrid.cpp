@@ -19,8 +19,9 @@ std::vector<grid::CellKey> locate_all(const grid::Levels& levels, const grid::Re
                                       const std::array<particles::Column, 3>& at, const particles::Particles& particles)
 {
     const std::size_t count = particles.size();
+    const Real finest = std::ldexp(Real(1), levels.count - 1);
     for (std::size_t p = 0; p < count; ++p)
-        if (!std::isfinite(at[0][p] + at[1][p] + at[2][p]))
+        if (!transfer::is_place(finest * transfer::scaled_position(levels, at, p)))
             throw core::NumericalError("particle " + std::to_string(particles.id[p]) +
                                        " has no finite position: the computation is unstable (smaller numerics.cfl?)");
     std::vector<grid::CellKey> key(count);

@@ -90,6 +90,7 @@ void set_node_motion(const Problem& problem, const Prepared& prepared, Real dt, 
     core::parallel_for(levels.leaves.size(), [&](std::size_t n) {
         const grid::Leaf& leaf = levels.leaves[n];
         grid::NodeMotion* tile = levels.motions(n);
+        const Real step = dt * (problem.numerics.subcycling ? 1 << (levels.count - 1 - leaf.level) : 1);
         for (int place = 0; place < grid::leaf_cells; ++place) {
             const Index3 local(place >> 6, place >> 3 & 7, place & 7);
             const int node = grid::tile_index(local[0], local[1], local[2]);
@@ -97,7 +98,7 @@ void set_node_motion(const Problem& problem, const Prepared& prepared, Real dt, 
             const Vec3 x = levels.origin + levels.spacing(leaf.level) * (leaf.origin + local).cast<Real>();
             const Motion* motion = nearest_motion(problem, x);
             if (motion == nullptr) continue;
-            const Vec3 displacement = at(*motion, x, 0).displacement, velocity = at(*motion, x, -dt / 2).velocity;
+            const Vec3 displacement = at(*motion, x, 0).displacement, velocity = at(*motion, x, -step / 2).velocity;
             for (std::size_t a = 0; a < 3; ++a) {
                 tile[node].change[a] = displacement[static_cast<int>(a)];
                 tile[node].velocity[a] = velocity[static_cast<int>(a)];

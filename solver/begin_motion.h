@@ -17,7 +17,9 @@ void set_initial_state(const Problem& problem, particles::Particles& particles);
 /// @pre   not the nodal scheme
 void set_back_velocities(const Problem& problem, Real dt, particles::Particles& particles);
 
-/// Displacement at time 0 and velocity at -dt/2 on the nodes themselves, each node with the motion of the nearest body.
+/// Displacement at time 0 and velocity half a step earlier on the nodes themselves, each node with the motion of the
+/// nearest body.
+/// @param dt  of the finest level
 /// @pre   the nodal scheme has started; afterwards slaves and halos are filled
 void set_node_motion(const Problem& problem, const Prepared& prepared, Real dt, State& state);
 } // namespace solver

@@ -30,26 +30,37 @@ void fold_work(State& state)
 }
 } // namespace
 
-void find_gauges(const State& state, Derived& derived)
+void fit_cells(const Prepared& prepared, grid::Refinement& refinement, State& state)
 {
+    transfer::refine_voids(prepared.options, state.levels, state.particles, refinement);
+    refine::split_into_finer_cells(state.levels, refinement, prepared.per_axis, state.particles);
+}
+
+void order_cells(const Problem& problem, const Prepared& prepared, const grid::Refinement& refinement, State& state)
+{
+    refine::order(problem.numerics.formulation, refinement, state.levels, state.particles);
+    transfer::cover_boxes(prepared.options, refinement, state.particles, state.levels);
+}
+
+void find_places(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
+{
+    transfer::assign_all(prepared.options, state.particles, state.levels, state.strays);
+    find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
     derived.gauge_upper = places_of(state.gauge_upper, state.particles);
     derived.gauge_lower = places_of(state.gauge_lower, state.particles);
+    derived.ligaments = ligament_map(problem);
+    weigh_columns(state.particles, derived.ligaments);
+    derived.surface = find_surface_forces(problem, state.particles, prepared);
+    derived.nonlocal = {};
 }
 
 void regrid(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
 {
     grid::Refinement refinement = refine::refinement_from_targets(state.levels, state.particles);
-    transfer::refine_voids(prepared.options, state.levels, state.particles, refinement);
-    refine::split_into_finer_cells(state.levels, refinement, prepared.per_axis, state.particles);
-    refine::order(problem.numerics.formulation, refinement, state.levels, state.particles);
-    transfer::cover_boxes(prepared.options, refinement, state.particles, state.levels);
+    fit_cells(prepared, refinement, state);
+    order_cells(problem, prepared, refinement, state);
     fold_work(state);
-    transfer::assign_all(prepared.options, state.particles, state.levels, state.strays);
-    derived.nonlocal = {};
-    find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
-    find_gauges(state, derived);
-    weigh_columns(state.particles, derived.ligaments);
-    derived.surface = find_surface_forces(problem, state.particles, prepared);
+    find_places(problem, prepared, state, derived);
     transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
 }
 

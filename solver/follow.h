@@ -9,9 +9,15 @@ namespace solver
 /// moved.
 void follow_particles(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
 
+/// Cells for the particles, and particles for the cells: refine what is void beside finer cells, split.
+void fit_cells(const Prepared& prepared, grid::Refinement& refinement, State& state);
+
+/// Leaves in order, particles by cell; open the cells that boxes reach.
+void order_cells(const Problem& problem, const Prepared& prepared, const grid::Refinement& refinement, State& state);
+
+/// What follows from where particles and leaves are: strays, load nodes, gauges, columns of ligaments, surfaces.
+void find_places(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
+
 /// Refine where targets ask, split, order, rebuild; then sums and load nodes of the new order.
 void regrid(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
-
-/// Present places of the gauge particles.
-void find_gauges(const State& state, Derived& derived);
 } // namespace solver

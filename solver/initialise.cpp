@@ -1,4 +1,5 @@
 #include "core/error.h"
+#include "grid/damping.h"
 #include "grid/halo.h"
 #include "grid/interface.h"
 #include "grid/topology.h"
@@ -9,6 +10,7 @@
 #include "solver/follow.h"
 #include "solver/lattice.h"
 #include "solver/nodal.h"
+#include "solver/observe.h"
 #include "solver/stable_time_step.h"
 #include "solver/step.h"
 #include "transfer/gimp_cover.h"
@@ -91,29 +93,60 @@ void place_particles(const Problem& problem, const Prepared& prepared, State& st
     set_initial_state(problem, state.particles);
     if (problem.numerics.formulation == Formulation::total) return;
     refinement = refine::refinement_from_targets(state.levels, state.particles);
-    transfer::refine_voids(prepared.options, state.levels, state.particles, refinement);
-    refine::split_into_finer_cells(state.levels, refinement, prepared.per_axis, state.particles);
+    fit_cells(prepared, refinement, state);
     set_initial_state(problem, state.particles);
+}
+
+bool has_mass(const grid::Levels& levels, const grid::NodeAddress& at)
+{
+    return levels.sums(static_cast<std::size_t>(at.leaf))[at.node].mass > 0;
+}
+
+/// Nodes of a symmetry plane stay in it, whatever a load prescribes.
+void check_planes(const Problem& problem, std::size_t load, const LoadNodes& nodes, const grid::Levels& levels)
+{
+    for (const SymmetryPlane& plane : problem.symmetry) {
+        const std::optional<Real>& speed = problem.loads[load].velocity[static_cast<std::size_t>(plane.axis)];
+        if (speed.value_or(0) == 0) continue;
+        const Real slack = 1e-6 * levels.spacing(levels.count - 1);
+        for (std::size_t n = 0; n < nodes.position.size(); ++n)
+            if (std::abs(nodes.position[n][plane.axis] - plane.at) < slack && has_mass(levels, nodes.node[n]))
+                throw core::InputError(fmt::format(
+                    "load '{0}' moves nodes of the symmetry plane {1} = {2} mm along {1}, out of the plane: "
+                    "let its region end before the plane, or leave that component \"free\"",
+                    problem.loads[load].name, "xyz"[plane.axis], plane.at));
+    }
 }
 
 void check_loads(const Problem& problem, const grid::Levels& levels, const Derived& derived)
 {
     for (std::size_t i = 0; i < problem.loads.size(); ++i) {
         bool holds = false;
-        for (const grid::NodeAddress& at : derived.load_nodes[i].node)
-            holds = holds || levels.sums(static_cast<std::size_t>(at.leaf))[at.node].mass > 0;
+        for (const grid::NodeAddress& at : derived.load_nodes[i].node) holds = holds || has_mass(levels, at);
         if (!holds)
             throw core::InputError(fmt::format("load '{}' holds no node with mass: its region misses the body or is "
                                                "smaller than a cell",
                                                problem.loads[i].name));
+        check_planes(problem, i, derived.load_nodes[i], levels);
     }
 }
+
 void find_fast_nodes(const Problem& problem, const grid::Levels& levels, Derived& derived)
 {
     if (!problem.numerics.subcycling) return;
     std::vector<grid::NodeAddress> held;
     for (const LoadNodes& load : derived.load_nodes) held.insert(held.end(), load.node.begin(), load.node.end());
     derived.fast_nodes = grid::find_fast_nodes(levels, held);
+}
+
+/// What the first step finds of initial motions: velocities half a step earlier.
+void set_back(const Problem& problem, const Prepared& prepared, State& state)
+{
+    const Real dt = stable_time_step(problem, prepared, state);
+    state.clock.dt = substeps(problem) * dt;
+    if (nodal(problem)) return set_node_motion(problem, prepared, dt, state);
+    set_back_velocities(problem, dt, state.particles);
+    transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
 }
 } // namespace
 
@@ -126,23 +159,17 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
     state.loads.resize(problem.loads.size());
     state.ligaments.resize(problem.ligaments.size());
     grid::Refinement refinement = populate(problem, prepared, state);
-    transfer::refine_voids(prepared.options, state.levels, state.particles, refinement);
-    refine::split_into_finer_cells(state.levels, refinement, prepared.per_axis, state.particles);
-    if (begins_with_motion(problem)) place_particles(problem, prepared, state, refinement);
-    refine::order(problem.numerics.formulation, refinement, state.levels, state.particles);
-    transfer::cover_boxes(prepared.options, refinement, state.particles, state.levels);
+    fit_cells(prepared, refinement, state);
+    const bool moving = begins_with_motion(problem);
+    if (moving) place_particles(problem, prepared, state, refinement);
+    order_cells(problem, prepared, refinement, state);
     state.leaf_work.assign(state.levels.leaves.size(), {});
     if (problem.gauge) {
         const Real radius = state.levels.spacing(state.levels.count - 1);
         state.gauge_upper = particles_near(state.particles, problem.gauge->upper, radius);
         state.gauge_lower = particles_near(state.particles, problem.gauge->lower, radius);
     }
-    transfer::assign_all(prepared.options, state.particles, state.levels, state.strays);
-    find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
-    find_gauges(state, derived);
-    derived.ligaments = ligament_map(problem);
-    weigh_columns(state.particles, derived.ligaments);
-    derived.surface = find_surface_forces(problem, state.particles, prepared);
+    find_places(problem, prepared, state, derived);
     const auto scatter = [&] {
         transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
     };
@@ -153,23 +180,16 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
     check_loads(problem, state.levels, derived);
     scatter();
     if (nodal(problem)) {
-        start_nodal(problem, prepared, state);
+        start_nodal(prepared, state);
         keep_heavy_nodes(state.levels, derived.load_nodes);
-        find_fast_nodes(problem, state.levels, derived);
+        if (moving) set_node_motion(problem, prepared, 0, state);
     }
-    const bool moving = begins_with_motion(problem);
-    if (moving && nodal(problem)) set_node_motion(problem, prepared, 0, state);
     const Ledger start = audit(prepared, state);
-    state.initial_energy = start.kinetic + start.elastic;
-    if (moving) {
-        const Real dt = stable_time_step(problem, prepared, state);
-        if (nodal(problem)) {
-            set_node_motion(problem, prepared, dt, state);
-        } else {
-            set_back_velocities(problem, dt, state.particles);
-            scatter();
-        }
-    }
+    state.initial_energy = start.kinetic + start.elastic - start.external; // gravity counts from the rest position
+    state.gauge_start = gauge_opening(problem, state, derived);
+    if (moving) set_back(problem, prepared, state);
+    if (problem.numerics.damps_fast_motion_only()) grid::start_means(state.levels);
+    find_fast_nodes(problem, state.levels, derived);
     return state;
 }
 
@@ -178,12 +198,7 @@ void resume(const Problem& problem, const Prepared& prepared, State& state, Deri
     std::vector<grid::NodeForce> force = std::move(state.levels.force);
     std::vector<grid::NodeMotion> motion = std::move(state.levels.motion);
     grid::restore(state.levels);
-    transfer::assign_all(prepared.options, state.particles, state.levels, state.strays);
-    find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
-    find_gauges(state, derived);
-    derived.ligaments = ligament_map(problem);
-    weigh_columns(state.particles, derived.ligaments);
-    derived.surface = find_surface_forces(problem, state.particles, prepared);
+    find_places(problem, prepared, state, derived);
     if (nodal(problem)) {
         state.levels.force = std::move(force);
         state.levels.motion = std::move(motion);

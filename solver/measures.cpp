@@ -61,6 +61,15 @@ std::vector<std::size_t> crack_initiations(const Problem& problem, const std::ve
     return initiations(problem, ligaments, crack_path(problem.ligaments, ligaments, problem.start_features));
 }
 
+std::vector<std::string> measure_names(const Problem& problem)
+{
+    std::vector<std::string> names;
+    const std::vector<LigamentState> intact(problem.ligaments.size());
+    for (const Measure& measure : measures(problem, {}, intact).numbers) names.push_back(measure.name);
+    for (const Quantity& quantity : problem.quantities) names.push_back(quantity.name);
+    return names;
+}
+
 std::string published_name(const std::string& measure)
 {
     constexpr std::string_view mean = "_mean_N";

@@ -46,6 +46,9 @@ std::vector<std::size_t> crack_initiations(const Problem& problem, const std::ve
 Measures measures(const Problem& problem, const std::vector<HistoryLine>& history,
                   const std::vector<LigamentState>& ligaments);
 
+/// Names of the numbers that runs of a case have: those of `measures` and those it asks for.
+std::vector<std::string> measure_names(const Problem& problem);
+
 /// Name of the published number that a measure is compared with: cK_force_N for cK_mean_N, else the same.
 std::string published_name(const std::string& measure);
 

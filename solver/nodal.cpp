@@ -1,7 +1,6 @@
 #include "solver/nodal.h"
 
 #include "core/error.h"
-#include "grid/damping.h"
 #include "grid/halo.h"
 #include "grid/interface.h"
 #include "grid/nodal.h"
@@ -20,12 +19,11 @@ void enter_lattice(const Prepared& prepared, State& state)
 }
 } // namespace
 
-void start_nodal(const Problem& problem, const Prepared& prepared, State& state)
+void start_nodal(const Prepared& prepared, State& state)
 {
     grid::start_nodes(prepared.walls, prepared.mass_cutoff, state.levels);
     grid::prolong_motion(state.levels);
     grid::fill_motion_halos(state.levels);
-    if (problem.numerics.damps_fast_motion_only()) grid::start_means(state.levels);
     enter_lattice(prepared, state);
 }
 

@@ -15,7 +15,7 @@ inline bool nodal(const Problem& problem)
 /// Give mass and velocity to the nodes, stress to the lattice.
 /// @pre   sums as scattered, halos not assembled
 /// @error core::InputError if the particles do not sit on the lattice
-void start_nodal(const Problem& problem, const Prepared& prepared, State& state);
+void start_nodal(const Prepared& prepared, State& state);
 
 /// Rebuild what a checkpoint does not hold; `state` has all columns, and motion and force tiles as they were.
 void resume_nodal(const Prepared& prepared, State& state);

@@ -48,7 +48,7 @@ Real gauge_opening(const Problem& problem, const State& state, const Derived& de
 {
     if (!problem.gauge) return 0;
     return mean_displacement(problem, state, derived.gauge_upper, problem.gauge->axis) -
-           mean_displacement(problem, state, derived.gauge_lower, problem.gauge->axis);
+           mean_displacement(problem, state, derived.gauge_lower, problem.gauge->axis) - state.gauge_start;
 }
 
 std::vector<std::uint64_t> particles_per_level(const State& state)

@@ -46,7 +46,10 @@ Real line_value(const CrackQuantity& crack, const particles::Particles& particle
     const std::vector<Pair> places = separated_in_plane(crack, particles);
     if (places.size() < 2) return std::numeric_limits<Real>::quiet_NaN();
     const Pair along = direction_of(places);
-    if (crack.what == CrackQuantity::What::angle) return std::atan2(along[1], along[0]) * 180 / std::numbers::pi;
+    if (crack.what == CrackQuantity::What::angle) {
+        const Real angle = std::atan2(along[1], along[0]) * 180 / std::numbers::pi;
+        return angle < -90 + 1e-6 ? Real(90) : angle; // rounding decides the sign of a line along the second axis
+    }
     Real lower = std::numeric_limits<Real>::infinity(), upper = -lower;
     for (const Pair& place : places) {
         lower = std::min(lower, along.dot(place));

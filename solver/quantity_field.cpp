@@ -1,5 +1,6 @@
 #include "solver/quantity_values.h"
 
+#include "core/equivalent_stress.h"
 #include "core/parallel.h"
 #include "core/tensor.h"
 #include "particles/tensors.h"
@@ -79,12 +80,6 @@ Real stress_component(const FieldComponent& field, const core::Sym<Real>& s, con
     if (field.component == Component::radial) return at.radial.dot(on_radial);
     if (field.component == Component::radial_around) return at.around.dot(on_radial);
     return at.around.dot(matrix_of(s) * at.around);
-}
-
-Real von_mises(const core::Sym<Real>& s)
-{
-    const Real xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];
-    return std::sqrt(Real(0.5) * (xy * xy + yz * yz + zx * zx) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
 /// Linear fit of the field over the particles within `radius` of a point, evaluated there. Directions in which the
@@ -169,7 +164,7 @@ Real field_value(const FieldComponent& field, const particles::Particles& partic
     case Field::stress:
         return stress_component(field, particles::stress_of(particles, p), particles, p);
     case Field::von_mises:
-        return von_mises(particles::stress_of(particles, p));
+        return core::equivalent_stress(particles::stress_of(particles, p));
     case Field::pressure:
         return -core::trace(particles::stress_of(particles, p)) / 3;
     case Field::eq_plastic_strain:
@@ -191,16 +186,21 @@ Real value_of(const Difference& difference, const ParticleView& view)
            fitted(difference.field, difference.second, difference.radius, view);
 }
 
-Real value_of(const FieldError& error, const Motion& motion, const Clock& clock, const ParticleView& view)
+Real value_of(const FieldError& error, const Problem& problem, const Clock& clock, const ParticleView& view)
 {
     const particles::Particles& particles = view.particles;
     const bool of_velocity = error.field == Field::velocity;
-    const Real time = of_velocity ? clock.time - clock.dt / 2 : clock.time;
+    const Motion& motion = problem.motions[error.motion];
+    // Velocities are those of the middle of the step of their level.
+    const auto time_of = [&](std::size_t p) {
+        const int parts = problem.numerics.subcycling ? 1 << particles.size_level[p] : 1;
+        return of_velocity ? clock.time - clock.dt / (2 * parts) : clock.time;
+    };
     std::vector<Real> squared(particles.size(), -1); // -1: outside of the region
     core::parallel_for(particles.size(), [&](std::size_t p) {
         const Vec3 rest = rest_of(particles, p);
         if (!error.region.contains(rest)) return;
-        const MotionState exact = at(motion, rest, time);
+        const MotionState exact = at(motion, rest, time_of(p));
         if (error.field == Field::stress) {
             const Mat3 off = matrix_of(particles::stress_of(particles, p)) - matrix_of(exact.stress);
             squared[p] = off.squaredNorm();

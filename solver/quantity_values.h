@@ -3,7 +3,7 @@
 
 #include "grid/levels.h"
 #include "particles/particles.h"
-#include "solver/motion.h"
+#include "solver/problem.h"
 #include "solver/quantity.h"
 #include "solver/state.h"
 
@@ -31,5 +31,5 @@ Real value_of(const CrackQuantity& crack, const std::vector<material::Material>&
               const particles::Particles& particles);
 Real value_of(const Energy& energy, const Ledger& ledger);
 /// @param clock  velocity belongs to time - dt / 2
-Real value_of(const FieldError& error, const Motion& motion, const Clock& clock, const ParticleView& view);
+Real value_of(const FieldError& error, const Problem& problem, const Clock& clock, const ParticleView& view);
 } // namespace solver

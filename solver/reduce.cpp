@@ -81,7 +81,8 @@ Real fourier_of(const Series& series, Real frequency)
     return length > 0 ? 2 * std::abs(sum) / length : nothing;
 }
 
-Real reduced(const Quantity& quantity, std::size_t index, const std::vector<Sample>& samples)
+/// @param scale_of  of the measure that `when_max` and `when_min` look at
+Real reduced(const Quantity& quantity, std::size_t index, Real scale_of, const std::vector<Sample>& samples)
 {
     using enum Reduction::At;
     const Reduction& reduction = quantity.reduction;
@@ -93,9 +94,9 @@ Real reduced(const Quantity& quantity, std::size_t index, const std::vector<Samp
     case end:
         return series.value.back();
     case max:
-        return *largest;
+        return quantity.scale < 0 ? *least : *largest; // of the results, which are scaled
     case min:
-        return *least;
+        return quantity.scale < 0 ? *largest : *least;
     case mean:
         return mean_of(series);
     case amplitude:
@@ -111,7 +112,8 @@ Real reduced(const Quantity& quantity, std::size_t index, const std::vector<Samp
     const Series other = series_of(samples, reduction.of, reduction);
     if (other.time.empty()) return nothing;
     const auto [low, high] = std::minmax_element(other.value.begin(), other.value.end());
-    const auto chosen = reduction.at == when_max ? high : low;
+    const bool falls = scale_of < 0; // the largest result is then the least value
+    const auto chosen = (reduction.at == when_max) != falls ? high : low;
     return value_at(series, other.time[static_cast<std::size_t>(chosen - other.value.begin())]);
 }
 } // namespace
@@ -121,7 +123,8 @@ std::vector<Real> results(const std::vector<Quantity>& quantities, const std::ve
     std::vector<Real> result(quantities.size(), nothing);
     for (std::size_t i = 0; i < quantities.size(); ++i)
         if (!std::holds_alternative<Ratio>(quantities[i].kind))
-            result[i] = quantities[i].scale * reduced(quantities[i], i, samples);
+            result[i] =
+                quantities[i].scale * reduced(quantities[i], i, quantities[quantities[i].reduction.of].scale, samples);
     for (std::size_t i = 0; i < quantities.size(); ++i)
         if (const auto* ratio = std::get_if<Ratio>(&quantities[i].kind))
             result[i] = quantities[i].scale * result[ratio->of] / result[ratio->over];

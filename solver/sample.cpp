@@ -30,7 +30,7 @@ Real value_of(const LoadQuantity& quantity, const Problem& problem, const Derive
     switch (quantity.what) {
     case LoadQuantity::What::force:
         return load.sample_time > 0 ? problem.symmetry_factor(axis) * load.sample_impulse[axis] / load.sample_time
-                                    : Real(0);
+                                    : std::numeric_limits<Real>::quiet_NaN(); // a mean over no time
     case LoadQuantity::What::displacement:
         return load.displacement[axis];
     case LoadQuantity::What::work:
@@ -68,7 +68,7 @@ const Sample& take_sample(const Problem& problem, const Prepared& prepared, cons
             Overloaded{
                 [&](const Energy& kind) { return value_of(kind, ledger); },
                 [&](const LoadQuantity& kind) { return value_of(kind, problem, derived, state); },
-                [&](const FieldError& kind) { return value_of(kind, problem.motions[kind.motion], state.clock, view); },
+                [&](const FieldError& kind) { return value_of(kind, problem, state.clock, view); },
                 [&](const CrackQuantity& kind) {
                     return kind.what == CrackQuantity::What::energy
                                ? ledger.decohesion

@@ -118,5 +118,7 @@ struct State
     std::vector<Sample> samples;                         // of the measures, every one so far
     std::vector<HistoryLine> history;                    // every line so far: measures need peaks and events
     std::vector<std::uint32_t> gauge_upper, gauge_lower; // particle ids whose mean displacement is the gauge
+    Real gauge_start = 0;                                // mm, difference of their displacements at time 0
+    Real largest_opening = 0;                            // mm, of those looked at: outputs by opening are due once
 };
 } // namespace solver

@@ -73,22 +73,10 @@ void step(const Problem& problem, const Prepared& prepared, State& state, Derive
     const transfer::PassOptions options = pass_options(prepared, state.clock);
 
     move_nodes(problem, prepared, derived, state);
-
-    transfer::advance_and_scatter(options, prepared.laws, state.strays, state.particles, state.levels, state.leaf_work);
-    start_nonlocal_cracks(options, prepared, state, derived.nonlocal);
-
-    tick(state.clock);
-    follow_particles(problem, prepared, state, derived);
-}
-
-void step_musl(const Problem& problem, const Prepared& prepared, State& state, Derived& derived)
-{
-    choose_dt(problem, prepared, state);
-    const transfer::PassOptions options = pass_options(prepared, state.clock);
-
-    move_nodes(problem, prepared, derived, state);
-    transfer::remap_momentum(options, state.strays, state.particles, state.levels);
-    move_nodes_again(problem, prepared, derived, state);
+    if (problem.numerics.stress_update == StressUpdate::musl) {
+        transfer::remap_momentum(options, state.strays, state.particles, state.levels);
+        move_nodes_again(problem, prepared, derived, state);
+    }
 
     transfer::advance_and_scatter(options, prepared.laws, state.strays, state.particles, state.levels, state.leaf_work);
     start_nonlocal_cracks(options, prepared, state, derived.nonlocal);
@@ -149,7 +137,6 @@ void advance(const Problem& problem, const Prepared& prepared, State& state, Der
 {
     if (problem.numerics.subcycling) return step_subcycled(problem, prepared, state, derived);
     if (nodal(problem)) return step_nodal(problem, prepared, state, derived);
-    problem.numerics.stress_update == StressUpdate::musl ? step_musl(problem, prepared, state, derived)
-                                                         : step(problem, prepared, state, derived);
+    step(problem, prepared, state, derived);
 }
 } // namespace solver

@@ -34,7 +34,8 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
 /// @param state  reads particles in stored order, levels as io/checkpoint.h restores them
 void resume(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
 
-/// Advance by one time step: symplectic Euler, stress updated last, all levels with the same dt.
+/// Advance by one time step: symplectic Euler, stress updated last, all levels with the same dt. With `musl` the stress
+/// comes from velocities mapped again from the updated particles.
 ///
 /// | phase                         | reads                               | writes                           |
 /// |-------------------------------|-------------------------------------|----------------------------------|
@@ -47,13 +48,11 @@ void resume(const Problem& problem, const Prepared& prepared, State& state, Deri
 /// | apply_loads                   | sums of held nodes                  | their velocity; reactions        |
 /// | grid::prolong_motion          | velocity of masters                 | velocity of slaves               |
 /// | grid::fill_motion_halos       | velocity of owners                  | velocity of halos                |
+/// | transfer::remap_momentum      | node velocity, particles            | momentum (musl), then the nodes  |
 /// | transfer::advance_and_scatter | node velocity, particles            | particles; sums of the next step |
 /// | start_nonlocal_cracks         | stress, node velocity               | cracks that start                |
 /// | follow_particles              | strays                              | order of particles, leaves       |
 void step(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
-
-/// The same with the stress from velocities mapped again from the updated particles (MUSL).
-void step_musl(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
 
 /// The same with velocity and displacement kept on the nodes: only forces go there, only gradients come back.
 void step_nodal(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);

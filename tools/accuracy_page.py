@@ -17,6 +17,7 @@ import sys
 
 from csv_rows import write_rows
 from marked_page import replaced
+from patient_call import call
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FULL = ["c19-dcb", "c22-compact-tension", "c28-challenge"]
@@ -57,7 +58,7 @@ WANTED = ("10%", "5%", "2%")
 
 
 def chart(program, directory, arguments):
-    code = subprocess.run([program, "chart", *arguments, "-o", directory], cwd=ROOT).returncode
+    code = call([program, "chart", *arguments, "-o", directory], cwd=ROOT)
     if code:
         sys.exit(f"{program} chart {' '.join(arguments)}: ended with code {code}; the same command goes on")
 

@@ -23,10 +23,14 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
+from matplotlib.colors import ListedColormap
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from csv_rows import write_rows
 from marked_page import replaced
-from picture_of_run import read_curve, read_frame
+from patient_call import call
+from picture_of_run import name_features, places_of_features, read_curve, read_frame, show_scale
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DECOHESION = "material.steel.decohesion"
@@ -157,7 +161,7 @@ def run(program, name, directory, threads):
     log = directory.parent / f"{directory.name}.log"
     narrow = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX512F"} if variant.kernels == "avx2" else {}
     with open(log, "w") as output:
-        code = subprocess.run(command, stdout=output, stderr=subprocess.STDOUT, env=os.environ | narrow).returncode
+        code = call(command, stdout=output, stderr=subprocess.STDOUT, env=os.environ | narrow)
     print(f"{name}: {'done' if code == 0 else f'ended with code {code}, see {log}'}", flush=True)
 
 
@@ -178,26 +182,52 @@ def of_group(group):
     return [name for name, variant in VARIANTS.items() if variant.group == group]
 
 
-def show_plane(axes, x, y, title):
-    """Frame of a picture of the specimen [mm]."""
+def show_plane(axes, x, y, title, bar=5):
+    """Frame of a picture of the specimen [mm], with a bar of `bar` mm."""
     axes.set_xlim(*x)
     axes.set_ylim(*y)
     axes.set_aspect("equal")
     axes.set_axis_off()
     axes.set_title(title, fontsize=9)
+    show_scale(axes, bar)
+
+
+def dots(entries):
+    """Legend entries: text by colour."""
+    return [Line2D([], [], linestyle="", marker="o", markersize=4, color=colour, label=text) for colour, text in entries.items()]
+
+
+STRAIN = ListedColormap(plt.get_cmap("Greys")(np.linspace(1 / 7, 1, 256)))
+CRACKED = {"tab:red": (1, "cracked by opening"), "tab:blue": (2, "cracked in shear"), "tab:green": (3, "cracked in mixed mode")}
 
 
 def draw_pattern(axes, directory, time=None, title=None):
+    """Plastic strain at the middle plane and the particles that crack: what was drawn for the strain, colours of the cracks."""
     at_time, points, data, side = read_frame(directory, time)
     damage, failed, strain = data["damage"], data["failure_mode"], data["eq_plastic_strain"]
     middle = points[:, 2] < points[damage < 1, 2].min() + side.max()
     x, y = points[middle, 0], points[middle, 1]
     broken = damage[middle] > 0
-    axes.scatter(x[~broken], y[~broken], c=strain[middle][~broken], s=1.2, cmap="Greys", vmin=-0.1, vmax=0.6, linewidths=0)
-    for code, colour in ((1, "tab:red"), (2, "tab:blue"), (3, "tab:green")):
+    shown = axes.scatter(x[~broken], y[~broken], c=strain[middle][~broken], s=1.2, cmap=STRAIN, vmin=0, vmax=0.6, linewidths=0)
+    colours = set()
+    for colour, (code, _) in CRACKED.items():
         chosen = broken & (failed[middle] == code)
         axes.scatter(x[chosen], y[chosen], color=colour, s=2.5, linewidths=0)
+        if (chosen & (x > 13) & (x < 34) & (np.abs(y) < 9)).any():
+            colours.add(colour)
+    name_features(axes, places_of_features(directory, points, damage), 8)
     show_plane(axes, (13, 34), (-9, 9), title or f"t = {at_time:.2f} ms")
+    return shown, colours
+
+
+def save_patterns(path, figure, axes, drawn):
+    """The picture with what its colours mean."""
+    figure.set_layout_engine("constrained", rect=(0, 0.07, 1, 0.93))
+    figure.colorbar(drawn[0][0], ax=axes, shrink=0.7, label="equivalent plastic strain", extend="max")
+    colours = {colour: text for colour, (_, text) in CRACKED.items() if any(colour in seen for _, seen in drawn)}
+    figure.legend(handles=dots(colours), loc="lower center", ncols=len(colours), frameon=False, fontsize=8)
+    figure.savefig(path, dpi=100)
+    plt.close(figure)
 
 
 def draw_curves(path, results, names, reference):
@@ -219,27 +249,27 @@ def draw_curves(path, results, names, reference):
 
 def draw_patterns(path, results, names):
     figure, axes = plt.subplots(1, len(names), figsize=(3.4 * len(names), 3.2), squeeze=False)
-    for one, name in zip(axes[0], names):
-        draw_pattern(one, results[name], title=VARIANTS[name].change)
-    figure.tight_layout()
-    figure.savefig(path, dpi=100)
-    plt.close(figure)
+    save_patterns(path, figure, axes, [draw_pattern(one, results[name], title=VARIANTS[name].change)
+                                       for one, name in zip(axes[0], names)])
 
 
 def draw_sections(path, results, names, behind=(22.7, 23.5)):
     """Slabs of one cell's width across the crack behind hole C, from the middle plane to the face, last frame."""
-    figure, axes = plt.subplots(1, len(names) * len(behind), figsize=(1.5 * len(names) * len(behind), 3.4))
+    figure, axes = plt.subplots(1, len(names) * len(behind), figsize=(1.5 * len(names) * len(behind), 3.9))
+    figure.subplots_adjust(0.02, 0.08, 0.98, 0.86, 0.1)
+    colours = {"0.8": "intact", "tab:orange": "softening", "tab:blue": "through"}
+    how = dict(zip(SAME_METAL["0.125 mm"], HOW))
     for row, name in zip(axes.reshape(len(names), len(behind)), names):
+        middle = (row[0].get_position().x0 + row[-1].get_position().x1) / 2
+        figure.text(middle, 0.96, how[name], ha="center", va="center", fontsize=9)
         _, points, data, side = read_frame(results[name])
-        lattice = VARIANTS[name].change.split(", ")[-1]
         for one, x in zip(row, behind):
             slab = (np.abs(points[:, 0] - x) < side.min()) & (points[:, 2] < 2)
             y, z, damage = points[slab, 1], points[slab, 2], data["damage"][slab]
-            for chosen, colour in ((damage == 0, "0.8"), ((damage > 0) & (damage < 1), "tab:orange"), (damage >= 1, "tab:blue")):
+            for chosen, colour in zip((damage == 0, (damage > 0) & (damage < 1), damage >= 1), colours):
                 one.scatter(z[chosen], y[chosen], color=colour, s=3, linewidths=0)
-            show_plane(one, (-0.1, 1.7), (-1.5, 2.5), f"{lattice}\nx = {x} mm")
-            one.title.set_fontsize(6)
-    figure.tight_layout()
+            show_plane(one, (-0.1, 1.7), (-1.5, 2.5), f"x = {x} mm", 0.5)
+    figure.legend(handles=dots(colours), loc="lower center", ncols=len(colours), frameon=False, fontsize=8)
     figure.savefig(path, dpi=120)
     plt.close(figure)
 
@@ -249,12 +279,9 @@ def draw_sequence(path, results, names, openings=(1.0, 2.5, 4.0, 6.0)):
     with open(directory / "history.csv", newline="") as file:
         rows = [(float(row["time_ms"]), float(row["cod_mm"])) for row in csv.DictReader(file)]
     figure, axes = plt.subplots(1, len(openings), figsize=(3.2 * len(openings), 3.2))
-    for one, opening in zip(axes, openings):
-        time = min(rows, key=lambda row: abs(row[1] - opening))[0]
-        draw_pattern(one, directory, time, f"COD {opening} mm")
-    figure.tight_layout()
-    figure.savefig(path, dpi=100)
-    plt.close(figure)
+    times = [min(rows, key=lambda row: abs(row[1] - opening))[0] for opening in openings]
+    save_patterns(path, figure, axes, [draw_pattern(one, directory, time, f"COD {opening} mm")
+                                       for one, time, opening in zip(axes, times, openings)])
 
 
 def number(value, digits=0):
@@ -293,7 +320,7 @@ def draw_coupon(path, results, names):
         strain = np.array([float(row["cod_mm"]) for row in rows]) / 12.5
         axes.plot(100 * strain, np.array([float(row["force_upper_N"]) for row in rows]) / (6 * 3.15), linewidth=1.0,
                   label=f"ends part at {VARIANTS[name].change}")
-    axes.axhline(1100, color="0.6", linewidth=0.8)
+    axes.axhline(1100, color="0.6", linewidth=0.8, label="yield stress, 1100 MPa")
     axes.set_xlabel("engineering strain over 25 mm [%]")
     axes.set_ylabel("engineering stress [MPa]")
     axes.set_xlim(0, 12)
@@ -306,18 +333,20 @@ def draw_coupon(path, results, names):
 
 def draw_levels(path, results, names):
     """Cells of the first frame that have material at the middle plane, one grey per size."""
-    figure, axes = plt.subplots(1, len(names), figsize=(4.2 * len(names), 4.2), squeeze=False)
+    figure, axes = plt.subplots(1, len(names), figsize=(4.2 * len(names), 4.8), squeeze=False)
+    greys = {0.5: "0.95", 0.25: "0.8", 0.125: "0.62"}
     for one, name in zip(axes[0], names):
         _, points, _, side = read_frame(results[name], 0)
-        for size, grey in zip(np.unique(side.round(6))[::-1], ("0.95", "0.8", "0.62")):
-            cell = 2 * size
-            inside = (np.abs(side - size) < 1e-5) & (points[:, 2] < points[:, 2].min() + 4 * side.max())
+        for cell, grey in greys.items():
+            inside = (np.abs(2 * side - cell) < 1e-5) & (points[:, 2] < points[:, 2].min() + 4 * side.max())
             lower = np.unique(np.floor(points[inside, :2] / cell), axis=0) * cell
             corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * cell
             one.add_collection(PolyCollection(lower[:, None, :] + corners, facecolor=grey, edgecolor="0.3", linewidth=0.12))
         particles = f"{len(points):,}".replace(",", " ")
         show_plane(one, (-0.5, 32.5), (-16.5, 16.5), f"{VARIANTS[name].change}: {particles} particles")
-    figure.tight_layout()
+    patches = [Patch(facecolor=grey, edgecolor="0.3", linewidth=0.5, label=f"cells of {cell} mm") for cell, grey in greys.items()]
+    figure.legend(handles=patches, loc="lower center", ncols=len(greys), frameon=False, fontsize=9)
+    figure.tight_layout(rect=(0, 0.06, 1, 1))
     figure.savefig(path, dpi=130)
     plt.close(figure)
 
@@ -337,7 +366,7 @@ def draw_stress(path, results, names):
         stress = largest_principal(data["stress"][middle])
         shown = one.scatter(points[middle, 0], points[middle, 1], c=stress, s=5, cmap="viridis", vmin=0, vmax=4900, linewidths=0)
         show_plane(one, (15, 26), (-5, 8), f"{VARIANTS[name].change}: at most {stress.max():.0f} MPa")
-        figure.colorbar(shown, ax=one, shrink=0.7, label="largest principal stress [MPa]")
+        figure.colorbar(shown, ax=one, shrink=0.7, label="largest principal stress [MPa]", extend="max")
     figure.tight_layout()
     figure.savefig(path, dpi=70)
     plt.close(figure)

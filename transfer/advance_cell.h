@@ -247,9 +247,13 @@ inline void unpack_gradients(const Kinematics* k, std::size_t count, core::Mat<R
 {
     core::Mat<Real> gradient[group_size<false>];
     core::Sym<Real> stress[group_size<false>];
+    bool here[group_size<false>];
     unpack_gradients(k, last - first, gradient);
-    for (std::size_t p = first; p < last; ++p) stress[p - first] = particles::stress_of(particles, p);
-    start_cracks(options, laws, particles, first, last, Real(1) / frame.per_spacing, stress, gradient, onset);
+    for (std::size_t p = first; p < last; ++p) {
+        stress[p - first] = particles::stress_of(particles, p);
+        here[p - first] = k[(p - first) / Lanes::lanes].here[static_cast<int>((p - first) % Lanes::lanes)];
+    }
+    start_cracks(options, laws, particles, first, last, Real(1) / frame.per_spacing, stress, gradient, here, onset);
 }
 } // namespace detail
 

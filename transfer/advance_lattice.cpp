@@ -150,6 +150,8 @@ template <class T>
 {
     core::Sym<Real> stress[slots];
     core::Mat<Real> gradient[slots];
+    bool here[slots]; // nobody leaves a lattice
+    std::fill_n(here, slots, true);
     std::size_t count = 0;
     for (int s = 0; s < slots; ++s) {
         if (!part.has(lane, s)) continue;
@@ -158,7 +160,7 @@ template <class T>
     }
     const std::size_t begin = part.block.begin[part.lane(lane)];
     start_cracks(context.options, context.laws, particles, begin, begin + count, Real(1) / context.per_spacing, stress,
-                 gradient, onset);
+                 gradient, here, onset);
 }
 
 /// Ask for a state ahead of its use: one dense stream outruns what the hardware fetches by itself. Into the second

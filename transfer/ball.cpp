@@ -18,7 +18,7 @@ struct Image
 };
 
 /// Images of `x` along one axis, itself first, that a ball of `radius` sees between (or beyond) the planes.
-std::vector<Image> images_of(Real x, Real radius, const std::vector<Real>& planes)
+std::vector<Image> images_along(Real x, Real radius, const std::vector<Real>& planes)
 {
     std::vector<Image> images{{1, 0}};
     if (planes.empty()) return images;
@@ -92,6 +92,23 @@ Vec3 centre_of(const grid::Levels& levels, const OccupiedCell& cell)
     return levels.origin + levels.spacing(cell.level) * (cell.index.cast<Real>() + Vec3::Constant(Real(0.5)));
 }
 
+std::vector<Seen> images_of(const PassOptions& options, const grid::Levels& levels, const Vec3& place, Real reach)
+{
+    std::array<std::vector<Image>, 3> along;
+    for (int a = 0; a < 3; ++a)
+        along[static_cast<std::size_t>(a)] = images_along(place[a], reach, planes_of(options, levels, a));
+    std::vector<Seen> images;
+    for (const Image& x : along[0])
+        for (const Image& y : along[1])
+            for (const Image& z : along[2]) {
+                const unsigned turned = (x.sign < 0 ? 1u : 0u) | (y.sign < 0 ? 2u : 0u) | (z.sign < 0 ? 4u : 0u);
+                images.push_back(
+                    {Vec3(x.sign * place[0] + x.offset, y.sign * place[1] + y.offset, z.sign * place[2] + z.offset),
+                     static_cast<std::uint8_t>(turned)});
+            }
+    return images;
+}
+
 std::vector<OccupiedCell> cells_near(const grid::Levels& levels, const Vec3& point, Real reach, int margin)
 {
     std::vector<OccupiedCell> cells;
@@ -132,33 +149,26 @@ Ball ball_ahead(const PassOptions& options, const grid::Levels& levels, const pa
     Ball ball = ball_of_cell(levels, particles, cell.slot, material);
     const Real half = levels.spacing(cell.level) / 2, end = length - half;
     if (end <= half) return ball;
-    for_particles_near(options, levels, particles, centre_of(levels, cell), end, material,
-                       [&](std::uint32_t p, const Vec3& offset, std::size_t slot) {
-                           const Real along = offset.dot(way);
-                           const bool ahead = along > 0 && along <= end;
-                           if (slot == cell.slot || !ahead) return;
-                           if ((offset - along * way).squaredNorm() <= half * half)
-                               add(p, 0, particles.rest_volume[p], ball);
-                       });
+    for (const Seen& image : images_of(options, levels, centre_of(levels, cell), end)) {
+        const Vec3 seen_way = turned_over(image.turned, way);
+        for_particles_near(options, levels, particles, image.place, end, material,
+                           [&](std::uint32_t p, const Vec3& offset, std::size_t slot) {
+                               const Real along = offset.dot(seen_way);
+                               const bool ahead = along > 0 && along <= end;
+                               if ((slot == cell.slot && image.turned == 0) || !ahead) return;
+                               if ((offset - along * seen_way).squaredNorm() <= half * half)
+                                   add(p, image.turned, particles.rest_volume[p], ball);
+                           });
+    }
     return ball;
 }
 
 Ball ball_about(const PassOptions& options, const grid::Levels& levels, const particles::Particles& particles,
                 const OccupiedCell& cell, std::uint8_t material, Real radius)
 {
-    const Vec3 centre = centre_of(levels, cell);
-    std::array<std::vector<Image>, 3> images;
-    for (int a = 0; a < 3; ++a)
-        images[static_cast<std::size_t>(a)] = images_of(centre[a], radius, planes_of(options, levels, a));
     Ball ball;
-    for (const Image& x : images[0])
-        for (const Image& y : images[1])
-            for (const Image& z : images[2]) {
-                const Vec3 seen(x.sign * centre[0] + x.offset, y.sign * centre[1] + y.offset,
-                                z.sign * centre[2] + z.offset);
-                const unsigned turned = (x.sign < 0 ? 1u : 0u) | (y.sign < 0 ? 2u : 0u) | (z.sign < 0 ? 4u : 0u);
-                collect(options, levels, particles, seen, static_cast<std::uint8_t>(turned), material, radius, ball);
-            }
+    for (const Seen& image : images_of(options, levels, centre_of(levels, cell), radius))
+        collect(options, levels, particles, image.place, image.turned, material, radius, ball);
     if (ball.particle.empty()) return ball_of_cell(levels, particles, cell.slot, material);
     return ball;
 }

@@ -38,6 +38,24 @@ OccupiedCell occupied_cell(const grid::Levels& levels, std::size_t slot);
 /// Centre of a cell at rest [mm].
 Vec3 centre_of(const grid::Levels& levels, const OccupiedCell& cell);
 
+/// A place as the symmetry planes show it.
+struct Seen
+{
+    Vec3 place;              // mm
+    std::uint8_t turned = 0; // bit a: in a mirror normal to axis a
+};
+
+/// A vector as it is seen in the mirrors, or back.
+inline Vec3 turned_over(std::uint8_t turned, Vec3 vector)
+{
+    for (int a = 0; a < 3; ++a)
+        if ((turned >> a & 1) != 0) vector[a] = -vector[a];
+    return vector;
+}
+
+/// A place, first, and its images whose surroundings within `reach` [mm] hold something between the planes.
+std::vector<Seen> images_of(const PassOptions& options, const grid::Levels& levels, const Vec3& place, Real reach);
+
 /// Occupied cells of all levels with a corner or more within `reach` of a point, in order of level and index, and
 /// `margin` cells beyond.
 std::vector<OccupiedCell> cells_near(const grid::Levels& levels, const Vec3& point, Real reach, int margin);

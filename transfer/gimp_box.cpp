@@ -1,6 +1,7 @@
 #include "transfer/gimp_box.h"
 
 #include "grid/topology.h"
+#include "transfer/scaled_position.h"
 
 #include <algorithm>
 #include <cmath>
@@ -191,7 +192,7 @@ bool BoxCutter::cut(const particles::Particles& particles, std::size_t p, std::v
 {
     const int finest = levels.count - 1;
     const Vec3 centre = centre_of(levels, particles, p, finest);
-    if (!centre.allFinite()) return false; // whoever places the particles names it (strays.cpp)
+    if (!is_place(centre)) return false; // whoever places the particles names it (strays.cpp)
     const BoxBounds bounds = box_bounds(options, levels, particles, p, finest);
     Cut cut{*this, bounds, centre, finest, parts, bounds};
     cut.fold(0);

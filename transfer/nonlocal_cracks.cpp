@@ -55,15 +55,19 @@ std::vector<Neighbour> cracks_near(const NonlocalView& view, const particles::Pa
                                    Real reach)
 {
     const OccupiedCell own = occupied_cell(view.levels, slot);
-    const Vec3 centre = centre_of(view.levels, own);
     std::vector<Neighbour> neighbours;
-    for (const OccupiedCell& cell : cells_near(view.levels, centre, reach, 0))
-        for (std::uint32_t p = view.levels.cell_start[cell.slot]; p < view.levels.cell_start[cell.slot + 1]; ++p) {
-            if (particles.crack[p] < 0) continue;
-            neighbours.push_back({centre - centre_of(view.levels, cell), cell.slot,
-                                  &particles.cracks[static_cast<std::size_t>(particles.crack[p])]});
-            break;
-        }
+    for (const Seen& image : images_of(view.options, view.levels, centre_of(view.levels, own), reach))
+        for (const OccupiedCell& cell : cells_near(view.levels, image.place, reach, 0))
+            for (std::uint32_t p = view.levels.cell_start[cell.slot]; p < view.levels.cell_start[cell.slot + 1]; ++p) {
+                if (particles.crack[p] < 0) continue;
+                const core::Crack& crack = particles.cracks[static_cast<std::size_t>(particles.crack[p])];
+                const Vec3 normal = turned_over(image.turned, Vec3(crack.normal[0], crack.normal[1], crack.normal[2]));
+                neighbours.push_back({turned_over(image.turned, image.place - centre_of(view.levels, cell)),
+                                      cell.slot,
+                                      {normal[0], normal[1], normal[2]},
+                                      crack.effective_length});
+                break;
+            }
     return neighbours;
 }
 
@@ -88,8 +92,8 @@ std::vector<Vec3> arriving_cracks(const NonlocalView& view, const particles::Par
     const core::Mat<Real> deformation = motion_of(view, particles, slot).deformation;
     std::vector<Vec3> ways;
     for (const Neighbour& other : cracks_near(view, particles, slot, beside)) {
-        if (other.slot == slot || other.offset.cwiseAbs().maxCoeff() > beside) continue;
-        const Vec3 normal = at_rest(deformation, other.crack->normal);
+        if (other.offset.squaredNorm() == 0 || other.offset.cwiseAbs().maxCoeff() > beside) continue;
+        const Vec3 normal = at_rest(deformation, other.normal);
         const Real across = other.offset.dot(normal);
         if (2 * across * across <= (1 + rounding) * other.offset.squaredNorm())
             ways.push_back((other.offset - across * normal).normalized());

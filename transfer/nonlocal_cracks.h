@@ -19,15 +19,16 @@ CellMotion motion_of(const NonlocalView& view, const particles::Particles& parti
 /// Normal at rest [1], N ~ F^T n.
 Vec3 at_rest(const core::Mat<Real>& deformation, const std::array<Real, 3>& normal);
 
-/// Cell with a crack: the crack of its first separating particle.
+/// Cell with a crack, or its image in a symmetry plane: the crack of its first separating particle.
 struct Neighbour
 {
     Vec3 offset; // mm, to the cell asked about
     std::size_t slot;
-    const core::Crack* crack;
+    std::array<Real, 3> normal; // 1
+    Real effective_length;      // mm
 };
 
-/// Cells with a crack within `reach` [mm] of a cell's centre.
+/// Cells with a crack, and their images, within `reach` [mm] of a cell's centre.
 std::vector<Neighbour> cracks_near(const NonlocalView& view, const particles::Particles& particles, std::size_t slot,
                                    Real reach);
 

@@ -71,7 +71,7 @@ std::vector<Onset> cracks_of(const NonlocalView& view, const particles::Particle
         std::min_element(neighbours.begin(), neighbours.end(), [](const Neighbour& a, const Neighbour& b) {
             return a.offset.squaredNorm() < b.offset.squaredNorm();
         });
-    if (nearest != neighbours.end()) bias.preferred_normal = {nearest->crack->normal};
+    if (nearest != neighbours.end()) bias.preferred_normal = {nearest->normal};
 
     const Real spacing = view.levels.spacing(view.levels.leaves[candidate.slot / grid::leaf_cells].level);
     std::vector<Onset> onset;
@@ -88,8 +88,8 @@ std::vector<Onset> cracks_of(const NonlocalView& view, const particles::Particle
     const core::Crack& fresh = onset.front().crack; // all have one plane: the tested stress and the bias are the cell's
     const Vec3 normal = at_rest(motion.deformation, fresh.normal);
     for (const Neighbour& other : neighbours)
-        if (excluded(other.offset, at_rest(motion.deformation, other.crack->normal), normal,
-                     std::max(fresh.effective_length, other.crack->effective_length), law.crack_exclusion) &&
+        if (excluded(other.offset, at_rest(motion.deformation, other.normal), normal,
+                     std::max(fresh.effective_length, other.effective_length), law.crack_exclusion) &&
             softens(view, particles, other.slot))
             return {};
     return onset;

@@ -13,6 +13,7 @@ namespace
 Real excess_of(const material::Decohesion& law, const core::Sym<Real>& stress)
 {
     if (!material::may_start(law, stress)) return 0;
+    if (law.weak_plane) return material::onset_ratio(law, material::plane_traction(stress, {*law.weak_plane}));
     const material::Principal principal = material::principal(stress);
     return material::onset_ratio(law, principal, material::lode_parameter(principal));
 }
@@ -67,7 +68,7 @@ void choose_tested(const NonlocalView& view, Candidate& candidate, particles::Pa
 {
     const material::Decohesion& law = *nonlocal_law(view.laws, candidate.material);
     candidate.tested = ball_mean(view, particles, candidate);
-    if (law.lode_memory > 0) {
+    if (law.lode_memory > 0 && !law.weak_plane) { // on a given plane no strength depends on it
         const material::Principal principal = material::principal(candidate.tested);
         candidate.lode = remember(view, material::lode_parameter(principal), candidate, particles);
         candidate.excess = material::onset_ratio(law, principal, *candidate.lode);

@@ -12,4 +12,12 @@ inline Vec3 scaled_position(const grid::Levels& levels, const std::array<particl
     // The product, not the quotient: the same rounding as in the kernels' test (transfer/chunk.h, inside).
     return (Vec3(at[0][p], at[1][p], at[2][p]) - levels.origin) * (Real(1) / levels.spacing0);
 }
+
+/// Whether indices of cells can name a place: not one that is no number, or flung away by an unstable computation.
+/// @param cells  in cells of the finest level
+inline bool is_place(const Vec3& cells)
+{
+    constexpr Real most = 1 << 30;
+    return (cells.array().abs() < most).all();
+}
 } // namespace transfer

@@ -20,14 +20,14 @@ Tensor lane_of(const LaneTensor& lanes, int lane)
     return t;
 }
 
-/// Mean stress tensor of the intact particles, weighted by rest volume.
+/// Mean stress tensor of the intact particles of a material, weighted by rest volume.
 core::Sym<Real> cell_mean(const particles::Particles& particles, std::size_t begin, std::size_t end,
-                          const core::Sym<Real>* stresses)
+                          std::uint8_t material, const core::Sym<Real>* stresses, const bool* here)
 {
     core::Sym<Real> mean{};
     Real volume = 0;
     for (std::size_t p = begin; p < end; ++p) {
-        if (particles.crack[p] >= 0) continue;
+        if (particles.crack[p] >= 0 || particles.material[p] != material || !here[p - begin]) continue;
         mean = mean + particles.rest_volume[p] * stresses[p - begin];
         volume += particles.rest_volume[p];
     }
@@ -35,10 +35,12 @@ core::Sym<Real> cell_mean(const particles::Particles& particles, std::size_t beg
 }
 
 /// Normal of a crack that already runs through the cell; zero if none.
-core::Vec<Real> nearest_normal(const particles::Particles& particles, std::size_t begin, std::size_t end)
+core::Vec<Real> nearest_normal(const particles::Particles& particles, std::size_t begin, std::size_t end,
+                               const bool* here)
 {
     for (std::size_t p = begin; p < end; ++p)
-        if (particles.crack[p] >= 0) return {particles.cracks[static_cast<std::size_t>(particles.crack[p])].normal};
+        if (particles.crack[p] >= 0 && here[p - begin])
+            return {particles.cracks[static_cast<std::size_t>(particles.crack[p])].normal};
     return {};
 }
 } // namespace
@@ -72,18 +74,20 @@ Real separate_lanes(const SeparatingChunk& chunk, particles::Particles& particle
 
 void start_cracks(const PassOptions& options, const LawTable& laws, const particles::Particles& particles,
                   std::size_t begin, std::size_t end, Real spacing, const core::Sym<Real>* stresses,
-                  const core::Mat<Real>* gradients, std::vector<Onset>& onset)
+                  const core::Mat<Real>* gradients, const bool* here, std::vector<Onset>& onset)
 {
     const Real per_dt = 1 / options.dt;
-    const core::Sym<Real> mean = cell_mean(particles, begin, end, stresses);
     for (std::size_t p = begin; p < end; ++p) {
         const material::Material& material = laws.materials[particles.material[p]];
         if (particles.crack[p] >= 0 || !material.decohesion || material.decohesion->nonlocal_radius > 0) continue;
+        if (!here[p - begin]) continue;
         const core::Sym<Real>& own = stresses[p - begin];
-        const core::Sym<Real>& test = material.decohesion->smoothed_onset ? mean : own;
+        const core::Sym<Real> test = material.decohesion->smoothed_onset
+                                         ? cell_mean(particles, begin, end, particles.material[p], stresses, here)
+                                         : own;
         // The lanes were flagged for their own stresses, and one flags the whole cell.
         if (!material::may_start(*material.decohesion, test)) continue;
-        material::Bias bias{gradients[p - begin], nearest_normal(particles, begin, end)};
+        material::Bias bias{gradients[p - begin], nearest_normal(particles, begin, end, here)};
         for (Real& entry : bias.velocity_gradient.m) entry *= per_dt;
         auto crack = material::onset(*material.decohesion, material.elastic, test, own, bias, spacing, options.time);
         if (!crack) continue;

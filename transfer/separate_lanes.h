@@ -36,7 +36,8 @@ Real separate_lanes(const SeparatingChunk& chunk, particles::Particles& particle
 /// @param spacing    mm, of the cell
 /// @param stresses   MPa, of each particle, [end - begin]
 /// @param gradients  1, L dt of each particle, [end - begin]
+/// @param here       [end - begin], whether this visit serves the particle: others count where they are
 void start_cracks(const PassOptions& options, const LawTable& laws, const particles::Particles& particles,
                   std::size_t begin, std::size_t end, Real spacing, const core::Sym<Real>* stresses,
-                  const core::Mat<Real>* gradients, std::vector<Onset>& onset);
+                  const core::Mat<Real>* gradients, const bool* here, std::vector<Onset>& onset);
 } // namespace transfer

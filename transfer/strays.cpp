@@ -23,7 +23,7 @@ struct Placed
 Vec3 finite_position(const particles::Particles& particles, const grid::Levels& levels, std::uint32_t p)
 {
     const Vec3 x = scaled_position(levels, particles.position, p);
-    if (!x.allFinite())
+    if (!is_place(x * std::ldexp(Real(1), levels.count - 1)))
         throw core::NumericalError("particle " + std::to_string(particles.id[p]) +
                                    " has no finite position: the computation is unstable (smaller numerics.cfl?)");
     return x;

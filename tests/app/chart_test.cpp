@@ -5,6 +5,8 @@
 #include "app/chart_summary.h"
 #include "app/leave_one_out.h"
 #include "app/scene_features.h"
+#include "app/source_tree.h"
+#include "core/error.h"
 #include "io/case.h"
 #include "tests/support/folder.h"
 
@@ -65,6 +67,33 @@ TEST(Chart, fronts_do_not_mix_scenes)
     rows[1].scene = "other";
     app::mark_fronts(rows);
     EXPECT_EQ(rows[1].front, 1);
+}
+
+/// What plan_chart says of a scene with these results.
+std::string plan_complaint(const std::string& measure, const std::string& stability);
+
+TEST(Chart, a_result_that_no_run_has_is_told_before_the_runs)
+{
+    EXPECT_EQ(plan_complaint("measures.peak_force_N", "measures.energy_residual"), "");
+    EXPECT_EQ(plan_complaint("cpu_s", "wall_s"), ""); // of run.json itself
+    const std::string wrong = plan_complaint("measures.peak_farce_N", "measures.energy_residual");
+    EXPECT_TRUE(wrong.starts_with("scene 'cube': its runs have no number 'measures.peak_farce_N'; did you mean "
+                                  "'measures.peak_force_N'?\nnumbers: measures.peak_force_N, "))
+        << wrong;
+    EXPECT_NE(plan_complaint("measures.peak_force_N", "errors.energy_residual").find("no number 'errors.energy"),
+              std::string::npos);
+}
+
+TEST(ChartTable, cases_of_the_source_tree_are_found_from_anywhere)
+{
+    const std::filesystem::path file = "cases/chart/quick.toml", before = std::filesystem::current_path();
+    if (!app::source_file(file)) GTEST_SKIP() << "built outside of the source tree";
+    const support::Folder folder;
+    std::filesystem::current_path(folder.path());
+    const std::filesystem::path found = app::here_or_source(file);
+    EXPECT_TRUE(std::filesystem::exists(found)) << found;
+    EXPECT_EQ(app::here_or_source("no/such/case.toml"), std::filesystem::path("no/such/case.toml"));
+    std::filesystem::current_path(before);
 }
 
 TEST(ChartSummary, order_is_the_slope)
@@ -199,6 +228,24 @@ time = 0.01
     return file;
 }
 
+std::string plan_complaint(const std::string& measure, const std::string& stability)
+{
+    const support::Folder folder;
+    io::Scene scene;
+    scene.name = "cube";
+    scene.file = written_case(folder);
+    scene.measure = measure;
+    scene.stable = {stability, 0.1};
+    io::Suite suite;
+    suite.scenes.push_back(scene);
+    try {
+        (void)app::plan_chart(suite, folder / "out");
+    } catch (const core::InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
 /// Three scenes alike (elastic with a hole) on which `nodal` has error (h/L)^1 and flip half of it at four times the
 /// cost.
 std::vector<ChartRow> measured()
@@ -293,6 +340,50 @@ TEST(SceneFeatures, a_piece_of_a_slot_is_no_hole_of_its_own)
     EXPECT_NEAR(
         length({piece, "feature.slot={centre=[5,5,0],axis=\"z\",shape={box={lower=[5,4,-inf],upper=[9,6,inf]}}}"}), 2,
         1e-9);
+}
+
+/// A block of 10 x 10 x 3 mm without a void along z, which is a feature.
+solver::Problem block_with(const geometry::Shape& hollow, const Vec3& centre)
+{
+    solver::Problem problem;
+    problem.grid.cell = 0.5;
+    problem.bodies = {{"block", geometry::subtract(geometry::box({0, 0, 0}, {10, 10, 3}), {hollow}), 0, Vec3::Zero()}};
+    problem.features = {{"void", hollow, centre}};
+    return problem;
+}
+
+geometry::Shape round_hole(Real x, Real y)
+{
+    return geometry::cylinder({x, y, -9}, {x, y, 9}, 2);
+}
+
+TEST(SceneFeatures, what_rounds_a_corner_is_no_hole)
+{
+    const geometry::Shape rounding = geometry::subtract(geometry::box({8, 8, -9}, {11, 11, 9}), {round_hole(8, 8)});
+    const app::SceneFeatures outer = app::scene_features(block_with(rounding, {9.8, 9.8, 1}));
+    EXPECT_FALSE(outer.localised);
+    EXPECT_NEAR(outer.length, 3, 1e-9);
+    // A cylinder of 12 mm beside the metal makes the fillet between grip and parallel length.
+    solver::Problem coupon = io::read_case(std::string(CLEAVE_SOURCE_DIR) + "/cases/tension/coupon.toml", {});
+    ASSERT_EQ(coupon.features.size(), 1U);
+    coupon.zones.clear();
+    const app::SceneFeatures inner = app::scene_features(coupon);
+    EXPECT_FALSE(inner.localised);
+    EXPECT_NEAR(inner.length, 1.575, 1e-9);
+}
+
+TEST(SceneFeatures, holes_and_slots_are_between_metal)
+{
+    solver::Problem quarter = block_with(round_hole(0, 0), {0, 0, 0});
+    quarter.symmetry = {{0, 0}, {1, 0}};
+    const geometry::Shape slot = geometry::box({-1, 4, -9}, {4, 5.5, 9}); // open at the edge
+    for (const auto& [problem, width] : {std::pair(block_with(round_hole(4, 5), {4, 5, 1}), 4.0),
+                                         std::pair(quarter, 4.0), std::pair(block_with(slot, {2, 4.75, 1}), 1.5)})
+    {
+        const app::SceneFeatures features = app::scene_features(problem);
+        EXPECT_TRUE(features.localised);
+        EXPECT_NEAR(features.length, width, 1e-9);
+    }
 }
 
 TEST(LeaveOneOut, tells_met_from_missed)

@@ -35,6 +35,24 @@ TEST(MeasureTable, compares_with_every_reference)
     EXPECT_TRUE(holds(table, "none                   A-D-C-E")) << table;
 }
 
+TEST(MeasureTable, shows_what_is_small_as_it_is)
+{
+    io::RunRecord small;
+    small.measures = {{"tip_mm", 0.00123}, {"gap_mm", 2.294}, {"far_mm", -0.25},
+                      {"none_mm", 0.0},    {"grip_N", 0.5},   {"pull_N", 7786.6}};
+    const std::string table = app::measure_table(small, solver::Problem{});
+    for (const char* text : {" 0.00123 mm", " 2.29 mm", " -0.25 mm", " 0.00 mm", " 0.5 N", " 7787 N"})
+        EXPECT_TRUE(holds(table, text)) << text << " in " << table;
+}
+
+TEST(MeasureTable, says_why_there_is_no_share_of_the_work)
+{
+    io::RunRecord idle;
+    idle.measures = {{"energy_residual", std::numeric_limits<Real>::quiet_NaN()}};
+    EXPECT_TRUE(holds(app::measure_table(idle, solver::Problem{}), "energy_residual   no external work\n"))
+        << app::measure_table(idle, solver::Problem{});
+}
+
 TEST(MeasureTable, leaves_out_what_the_case_does_not_ask)
 {
     const std::string table = app::measure_table(record(), solver::Problem{});

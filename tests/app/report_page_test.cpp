@@ -82,8 +82,7 @@ TEST(Report, ReadsAResultDirectory)
     const support::Folder folder;
     const solver::State state = sample::state();
     io::write_run_record(folder.path() / "run.json", sample_report().record);
-    io::HistoryFile history(folder.path() / "history.csv", 2);
-    for (const solver::HistoryLine& line : state.history) history.append(line);
+    const io::HistoryFile history(folder.path() / "history.csv", 2, state.history);
     io::write_particle_frame(folder.path() / "particles", state.particles, state.levels, state.clock,
                              {.fields = {"damage", "eq_plastic_strain"}, .version = "0.1.0"});
     io::write_file(

@@ -1,34 +1,17 @@
 #include "app/sweep_table.h"
 
-#include "core/error.h"
-
 #include <gtest/gtest.h>
 
-namespace
-{
-std::string complaint(const std::string& target, const solver::Problem& problem)
+TEST(SlurmScript, a_title_of_several_lines_stays_a_comment)
 {
     io::Sweep sweep;
-    sweep.file = "sweep.toml";
-    sweep.targets = {{target, 1, 1}};
-    try {
-        app::check_targets(sweep, problem);
-    } catch (const core::InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-} // namespace
-
-TEST(SweepTargets, are_what_the_runs_measure)
-{
-    solver::Problem problem;
-    problem.quantities.emplace_back().name = "tip_mm";
-    EXPECT_EQ(complaint("peak_force_N", problem), "");
-    EXPECT_EQ(complaint("c1_mean_N", problem), "");
-    EXPECT_EQ(complaint("tip_mm", problem), "");
-    EXPECT_TRUE(complaint("peak_force", problem)
-                    .starts_with("sweep.toml: target 'peak_force': the runs have no such measure; did you mean "
-                                 "'peak_force_N'?\nmeasures: "))
-        << complaint("peak_force", problem);
+    sweep.title = "two\nrm -rf lines";
+    sweep.file = "case.toml";
+    app::StudyRun run;
+    run.label = "a";
+    run.file = "/cases/case.toml";
+    run.directory = "/nowhere/runs/a";
+    const std::string script = app::slurm_script(sweep, {run}, "/bin/cleave");
+    EXPECT_NE(script.find("\n# two rm -rf lines: 1 runs of case.toml."), std::string::npos) << script;
+    EXPECT_NE(script.find("\n0) set -- 'run' '/cases/case.toml' '-o' '/nowhere/runs/a'"), std::string::npos) << script;
 }

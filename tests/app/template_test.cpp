@@ -34,6 +34,13 @@ TEST(Template, is_a_valid_case)
     EXPECT_TRUE(read.warnings.empty());
 }
 
+TEST(Template, takes_any_name_as_title)
+{
+    const support::Folder folder;
+    std::ofstream(folder / "demo.toml") << app::case_template("a \"b\" \\ c");
+    EXPECT_EQ(io::read_case(folder / "demo.toml").title, "a \"b\" \\ c");
+}
+
 TEST(Forecast, counts_the_particles_of_a_block)
 {
     const solver::Problem problem = refined_block();
@@ -66,10 +73,22 @@ TEST(Forecast, counts_the_bytes_of_grid_frames)
     problem.output.grid.time = 0.25;
     problem.output.grid_fields = {"density", "velocity"};
     const app::Forecast forecast = app::forecast(problem);
-    EXPECT_EQ(forecast.grid_frames, 5); // four intervals and the end
+    EXPECT_EQ(forecast.grid_frames, 4); // none at the beginning; the last one at the end
     // Fine cells, coarse cells, and the 4 x 4 x 4 coarse cells that the fine ones fill.
     const Real cells = 4 * 4 * 4 * 8 + 16 * 4 * 4 + 4 * 4 * 4;
-    EXPECT_DOUBLE_EQ(forecast.grid_bytes, 5 * cells * (1 + 4 + 12));
+    EXPECT_DOUBLE_EQ(forecast.grid_bytes, 4 * cells * (1 + 4 + 12));
+}
+
+TEST(Forecast, counts_one_more_frame_at_an_end_between_two)
+{
+    solver::Problem problem = refined_block();
+    const auto frames = [&](Real every) {
+        problem.output.particles.time = every;
+        return app::forecast(problem).particle_frames;
+    };
+    EXPECT_EQ(frames(0.1), 10); // 1 / 0.1 as the machine divides
+    EXPECT_EQ(frames(0.3), 4);
+    EXPECT_EQ(frames(2), 1);
 }
 
 TEST(Forecast, map_shows_levels_and_voids)

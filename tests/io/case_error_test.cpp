@@ -14,7 +14,20 @@ AssertionResult contains(const std::string& text, const std::string& part)
     return AssertionFailure() << "expected\n" << part << "\nin\n" << text;
 }
 
-using CaseError = test::CaseFile;
+class CaseError : public test::CaseFile
+{
+protected:
+    std::vector<std::string> warnings(std::string_view text) const
+    {
+        return io::read_case_with_warnings(write(text)).warnings;
+    }
+};
+
+AssertionResult one_error(const std::string& text, const std::string& part)
+{
+    if (!text.ends_with("\n1 error")) return AssertionFailure() << "not one error:\n" << text;
+    return contains(text, part);
+}
 
 TEST_F(CaseError, misspelt_key)
 {
@@ -54,6 +67,33 @@ TEST_F(CaseError, lode_memory_needs_a_ball_and_two_strengths)
     EXPECT_TRUE(contains(text, "case.toml:12:15: error: without tau_max_axial all states have one strength\n"));
 }
 
+TEST_F(CaseError, a_radius_that_makes_no_mean)
+{
+    const auto with_radius = [](const std::string& radius) {
+        return with(valid_case, "u0 =", "nonlocal_radius = " + radius + "\nu0 =");
+    };
+    EXPECT_TRUE(warnings(with_radius("0.5")).empty());
+    const std::vector<std::string> small = warnings(with_radius("0.4")), large = warnings(with_radius("11"));
+    ASSERT_EQ(small.size(), 1U);
+    EXPECT_TRUE(
+        contains(small[0], "case.toml:13:19: warning: nonlocal_radius 0.4 mm is below the finest cells, 0.5 mm"));
+    ASSERT_EQ(large.size(), 1U);
+    EXPECT_TRUE(contains(large[0], "case.toml:13:19: warning: nonlocal_radius 11 mm is more than the bodies of 'steel' "
+                                   "are long, 10 mm"));
+}
+
+// One mistake, and nothing about what it would have given.
+TEST_F(CaseError, a_misspelt_value_is_one_error)
+{
+    const std::string law = "s_max = \"4900 MPa\"\ntau_max = \"820 MPa\"\nu0 = \"2e-7 m\"\n";
+    EXPECT_TRUE(one_error(complaint(with(valid_case, law, "preset = \"papr\"\n")), "did you mean 'paper'?"));
+    EXPECT_TRUE(one_error(complaint(with(valid_case, law, "mode = \"openin\"\n")), "did you mean 'opening'?"));
+    EXPECT_TRUE(one_error(complaint(valid_case, {"load.base.axis=w"}), "--set:1:16: error: 'axis' is not an axis"));
+    EXPECT_TRUE(one_error(complaint(std::string(valid_case) + "[[measure]]\nname = \"f\"\nat = \"fourrier\"\n"
+                                                              "frequency = 3\nenergy = { what = \"kinetic\" }\n"),
+                          "did you mean 'fourier'?"));
+}
+
 // The hole is cut out of the body, and the zone and the gauge lie beside it: nothing is said of these.
 TEST_F(CaseError, a_wrong_feature_is_one_error)
 {
@@ -74,9 +114,9 @@ TEST_F(CaseError, a_measure_outside_every_body)
 TEST_F(CaseError, a_gauge_without_forces_is_a_warning)
 {
     const std::string text = with(valid_case, "[forces]\nupper = \"pin\"\nlower = \"base\"\n", "");
-    const std::vector<std::string> warnings = io::read_case_with_warnings(write(text)).warnings;
-    ASSERT_EQ(warnings.size(), 1U);
-    EXPECT_TRUE(contains(warnings[0], "no [forces]"));
+    const std::vector<std::string> found = warnings(text);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_TRUE(contains(found[0], "no [forces]"));
 }
 
 TEST_F(CaseError, misspelt_section)
@@ -138,6 +178,18 @@ TEST_F(CaseError, bodies_loads_and_zones_that_the_mesh_does_not_see)
                                                "{ box = { lower = [5.1, 5.1, 0.1], upper = [5.4, 5.4, 0.4] } }")));
     ASSERT_EQ(read.warnings.size(), 1U);
     EXPECT_TRUE(contains(read.warnings.front(), "warning: zone 'between' refines nothing"));
+}
+
+// The centres of these cells lie in the holes, as it happens.
+TEST_F(CaseError, cells_too_wide_to_meet_what_is_there)
+{
+    const std::string text = complaint(with(valid_case, "cell = 1\n", "cell = \"0.5 in\"\n"));
+    EXPECT_EQ(text.find("outside every body"), std::string::npos) << text;
+    EXPECT_TRUE(one_error(text, "cells of level 0 are 12.7 mm wide"));
+    const std::vector<std::string> thin = warnings(with(valid_case, "upper = [10, 10, 2]", "upper = [10, 10, 0.4]"));
+    ASSERT_EQ(thin.size(), 1U);
+    EXPECT_TRUE(contains(thin[0], "case.toml:3:8: warning: cells of 0.5 mm, the finest, are wider than body 'plate' "
+                                  "along z: 0.4 mm"));
 }
 
 TEST_F(CaseError, zone_level_beyond_the_finest)
@@ -217,9 +269,9 @@ TEST_F(CaseError, damping_memory_without_motion_on_the_nodes)
         contains(complaint(text + "transfer = \"flip\"\n"), "error: damping_memory needs transfer = \"nodal\""));
     EXPECT_TRUE(contains(complaint(std::string(valid_case) + "[numerics]\ndamping_memory = -0.1\n"), "damping_memory"));
     const std::string idle = std::string(valid_case) + "[numerics]\ndamping_memory = 0.1\n";
-    const std::vector<std::string> warnings = io::read_case_with_warnings(write(idle)).warnings;
-    ASSERT_EQ(warnings.size(), 1U);
-    EXPECT_TRUE(contains(warnings[0], "warning: damping_memory changes nothing without damping"));
+    const std::vector<std::string> found = warnings(idle);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_TRUE(contains(found[0], "warning: damping_memory changes nothing without damping"));
 }
 
 TEST_F(CaseError, missing_file)
@@ -334,6 +386,64 @@ TEST_F(CaseError, loads)
                          "this ramp needs a time > 0"));
 }
 
+TEST_F(CaseError, loads_that_contradict_each_other)
+{
+    const auto again = [](const std::string& motion) {
+        return std::string(valid_case) +
+               "[load.again]\nregion = { box = { lower = [-1, -1, -1], upper = [11, 1, 3] } }\n" + motion;
+    };
+    const std::vector<std::string> other = warnings(again("velocity = 1\naxis = \"y\"\n"));
+    ASSERT_EQ(other.size(), 1U);
+    EXPECT_TRUE(contains(other[0], "case.toml:53:10: warning: load 'again' has the region of load 'base' and another "
+                                   "velocity along y\n"));
+    EXPECT_TRUE(warnings(again("velocity = 1\naxis = \"x\"\n")).empty());
+    EXPECT_TRUE(warnings(again("velocity = 0\naxis = \"y\"\nramp = { time = 1 }\n")).empty());
+    EXPECT_TRUE(one_error(complaint(with(valid_case, "lower = \"base\"", "lower = \"pin\"")),
+                          "case.toml:44:9: error: 'upper' and 'lower' are the same load 'pin'\n"));
+}
+
+TEST_F(CaseError, the_same_twice)
+{
+    const std::string text(valid_case);
+    EXPECT_TRUE(one_error(complaint(text + "[[body]]\nname = \"plate\"\nmaterial = \"steel\"\n"
+                                           "shape = { box = { lower = [0, 10, 0], upper = [10, 11, 2] } }\n"),
+                          "case.toml:53:8: error: there are two bodies 'plate'\n"));
+    const std::string zone = "[[refine.zone]]\nname = \"between\"\nshape = { feature = \"A\" }\nmargin = 1\nlevel = ";
+    EXPECT_TRUE(one_error(complaint(text + zone + "1\n"), "case.toml:53:8: error: there are two zones 'between' of"));
+    EXPECT_EQ(complaint(with(text, "levels = 2", "levels = 3") + zone + "2\n"), ""); // refined twice
+    EXPECT_TRUE(one_error(complaint(text + "[[ligament]]\nfrom = \"B\"\nto = \"A\"\n"),
+                          "case.toml:53:8: error: there are two ligaments of 'B' and 'A'\n"));
+    EXPECT_TRUE(one_error(complaint(text + "[output.particles]\nfields = [\"damage\", \"damage\"]\n"),
+                          "case.toml:53:21: error: 'damage' stands twice in 'fields'\n"));
+}
+
+TEST_F(CaseError, measures_that_cannot_be)
+{
+    const auto measured = [](const std::string& lines) { return std::string(valid_case) + "[[measure]]\n" + lines; };
+    EXPECT_TRUE(one_error(complaint(measured("name = \"status\"\nenergy = { what = \"kinetic\" }\n")),
+                          "case.toml:53:8: error: 'status' has a meaning in the results of every run already\n"));
+    const std::string region = "region = { sphere = { centre = [5, 5, 1], radius = 2 } } }\n";
+    EXPECT_TRUE(one_error(complaint(measured("name = \"e\"\ncrack = { what = \"energy\", " + region)),
+                          "error: the energy of cracks is kept for the whole model\n"));
+    EXPECT_EQ(complaint(measured("name = \"e\"\ncrack = { what = \"softening\", " + region)), "");
+    const std::string moved = "name = \"u\"\nload = { name = \"base\", what = \"displacement\", component = ";
+    EXPECT_TRUE(one_error(complaint(measured(moved + "\"x\" }\n")),
+                          "error: load 'base' leaves x free: its displacement there is 0\n"));
+    EXPECT_EQ(complaint(measured(moved + "\"y\" }\n")), "");
+}
+
+TEST_F(CaseError, numbers_beyond_the_machine)
+{
+    EXPECT_TRUE(one_error(complaint(with(valid_case, "levels = 2", "levels = 3000000000")),
+                          "case.toml:4:10: error: 'levels' is out of range: 3000000000\n"));
+}
+
+TEST_F(CaseError, a_file_that_is_no_text)
+{
+    const std::string text = complaint("units = \x01\x1b[2J\n");
+    EXPECT_TRUE(contains(text, "    1 | units = ??[2J\n"));
+}
+
 TEST_F(CaseError, forces_need_a_load)
 {
     EXPECT_TRUE(contains(complaint(with(valid_case, "upper = \"pin\"\nlower = \"base\"", "axis = \"y\"")),
@@ -381,5 +491,23 @@ TEST_F(CaseError, overrides)
     EXPECT_TRUE(contains(complaint(valid_case, {"grid.cell"}), "an override reads key=value"));
     EXPECT_TRUE(contains(complaint(valid_case, {"grid.cell=5 MPa"}), "'5 MPa' is a stress, but 'cell' is a length"));
     EXPECT_TRUE(contains(complaint(valid_case, {"refine.zone.3.level=1"}), "no item '3' here"));
+    EXPECT_TRUE(contains(complaint(valid_case, {"output.checkpoint.every_wall=10 mm"}),
+                         "expected wall time > 0 [s], such as \"20 min\"\n"));
+}
+
+TEST_F(CaseError, overrides_of_a_misspelt_name)
+{
+    EXPECT_EQ(complaint(valid_case, {"load.bse.velocity=2"}), "--set:1:6: error: there is no load 'bse'\n"
+                                                              "    1 | load.bse.velocity=2\n"
+                                                              "      |      ^~~  did you mean 'base'?\n"
+                                                              "   loads here: pin, base; a new one needs more keys\n"
+                                                              "1 error");
+    EXPECT_TRUE(one_error(complaint(valid_case, {"material.stel.yield_stress=1100 MPa", "material.stel.density=1"}),
+                          "--set:1:10: error: there is no material 'stel'\n"));
+    EXPECT_TRUE(one_error(complaint(valid_case, {"feature.D.centre=[1, 2, 3]"}), "there is no feature 'D'\n"));
+    // All of a new one is one, and one that is written as a whole says what it lacks.
+    EXPECT_EQ(complaint(valid_case, {"feature.D.centre=[5, 5, 0]", "feature.D.diameter=1"}), "");
+    EXPECT_TRUE(
+        one_error(complaint(valid_case, {"feature.D={ centre = [5, 5, 0] }"}), "either a shape or the diameter"));
 }
 } // namespace

@@ -4,6 +4,7 @@
 #include "io/atomic_file.h"
 #include "io/hdf5.h"
 #include "io/particle_fields.h"
+#include "io/vtkhdf_series.h"
 #include "tests/io/file_faults.h"
 #include "tests/io/sample_state.h"
 #include "tests/support/folder.h"
@@ -185,19 +186,20 @@ TEST(GridFile, NamesUnitsAndConfiguration)
 TEST(GridSeries, ListsTheFramesAndRewinds)
 {
     const support::Folder folder;
-    io::rewind_grid_series(folder.path(), 0.2); // a run without frames
+    const auto list = folder.path() / io::grid_files.list;
+    io::rewind_series(list, 0.2); // a run without frames
     solver::State state = sample::state();
     for (const int step : {100, 200, 300}) {
         state.clock.step = step;
         state.clock.time = step * 1e-3;
         write(folder.path(), state);
     }
-    const std::string full = io::read_file(folder.path() / "grid.hdf.series");
+    const std::string full = io::read_file(list);
     EXPECT_PRED2(faults::contains, full, "g_000300.hdf");
-    io::rewind_grid_series(folder.path(), 0.2);
-    EXPECT_FALSE(faults::contains(io::read_file(folder.path() / "grid.hdf.series"), "g_000300.hdf"));
+    io::rewind_series(list, 0.2);
+    EXPECT_FALSE(faults::contains(io::read_file(list), "g_000300.hdf"));
     write(folder.path(), state); // the resumed run comes to step 300 again
-    EXPECT_EQ(io::read_file(folder.path() / "grid.hdf.series"), full);
+    EXPECT_EQ(io::read_file(list), full);
 }
 
 TEST(GridSeries, DoesNotListAFrameThatDidNotFitTheDisk)

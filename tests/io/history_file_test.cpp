@@ -25,7 +25,7 @@ TEST(HistoryFile, IsOnDiskAfterEveryLineAndReadsBack)
     const support::Folder folder;
     const auto path = folder.path() / "history.csv";
     const auto history = sample::state().history;
-    io::HistoryFile file(path, 2);
+    io::HistoryFile file(path, 2, {});
     for (std::size_t i = 0; i < history.size(); ++i) {
         file.append(history[i]);
         const auto lines = io::read_history(path); // while the file is open
@@ -39,32 +39,43 @@ TEST(HistoryFile, IsOnDiskAfterEveryLineAndReadsBack)
     }
 }
 
-TEST(HistoryFile, ResumesAfterTheStepOfTheCheckpoint)
+// Whatever stands in the old file: more than the checkpoint knows, a line cut short by a kill, or another run's.
+TEST(HistoryFile, BeginsWithTheHistoryOfTheCheckpoint)
 {
     const support::Folder folder;
     const auto path = folder.path() / "history.csv";
     const auto history = sample::state().history;
     {
-        io::HistoryFile file(path, 2);
+        io::HistoryFile file(path, 2, {});
         for (const auto& line : history) file.append(line);
     }
     const std::string whole = io::read_file(path);
-    io::write_file(path, whole + "500,0.1,1e"); // cut short by a kill
-    io::HistoryFile resumed(path, 2, 200);
-    EXPECT_EQ(io::read_history(path).size(), 3u);
-    resumed.append(history[3]);
-    resumed.append(history[4]);
-    EXPECT_EQ(io::read_file(path), whole);
+    for (const std::string& old : {whole + "500,0.1,1e", std::string("a,b\n1,2\n")}) {
+        io::write_file(path, old);
+        io::HistoryFile resumed(path, 2, {history.begin(), history.begin() + 3});
+        EXPECT_EQ(io::read_history(path).size(), 3u);
+        resumed.append(history[3]);
+        resumed.append(history[4]);
+        EXPECT_EQ(io::read_file(path), whole);
+    }
+}
 
-    io::HistoryFile fresh(folder.path() / "other.csv", 2, 200); // nothing to go on with
-    EXPECT_EQ(io::read_file(folder.path() / "other.csv"), io::history_header(2) + "\n");
+TEST(LineFile, BeginsWithItsHeaderAndTheLinesThereAre)
+{
+    const support::Folder folder;
+    const auto path = folder.path() / "probes.csv";
+    io::LineFile file(path, "step,tip_mm", {"1,0.5", "2,0.75"});
+    file.append("3,1");
+    EXPECT_EQ(io::read_file(path), "step,tip_mm\n1,0.5\n2,0.75\n3,1\n");
+    io::LineFile fresh(path, "step", {});
+    EXPECT_EQ(io::read_file(path), "step\n");
 }
 
 TEST(HistoryFile, ReportsAFullDiskAndAForeignFile)
 {
     const support::Folder folder;
     const auto path = folder.path() / "history.csv";
-    io::HistoryFile file(path, 2);
+    io::HistoryFile file(path, 2, {});
     {
         const faults::FileSizeLimit limit(std::filesystem::file_size(path));
         EXPECT_PRED2(faults::contains,

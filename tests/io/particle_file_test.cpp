@@ -4,6 +4,7 @@
 #include "io/atomic_file.h"
 #include "io/hdf5.h"
 #include "io/particle_columns.h"
+#include "io/vtkhdf_series.h"
 #include "tests/io/file_faults.h"
 #include "tests/io/sample_state.h"
 #include "tests/support/folder.h"
@@ -104,7 +105,7 @@ TEST(ParticleSeries, ListsTheFramesInOrderOfTimeAndRewinds)
     const auto series = folder.path() / "particles.hdf.series";
     const std::string full = io::read_file(series);
     EXPECT_PRED2(faults::contains, full, "\"file-series-version\": \"1.0\"");
-    io::rewind_particle_series(folder.path(), 0.2);
+    io::rewind_series(series, 0.2);
     EXPECT_PRED2(faults::contains, io::read_file(series), "p_000200.hdf");
     EXPECT_FALSE(faults::contains(io::read_file(series), "p_000300.hdf"));
     write(folder.path(), state); // the resumed run comes to step 300 again

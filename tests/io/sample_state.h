@@ -102,6 +102,8 @@ inline solver::State state()
     state.initial_energy = 1.0 / 7;
     state.source_work = 1.0 / 9;
     state.damped_work = 1.0 / 11;
+    state.gauge_start = 1.0 / 13;
+    state.largest_opening = 1.0 / 17;
     for (int i = 0; i < 3; ++i) state.samples.push_back({50 * i, i / Real(13), {i / Real(17), i / Real(19)}});
     for (int i = 0; i <= 4; ++i) {
         solver::HistoryLine& line = state.history.emplace_back();

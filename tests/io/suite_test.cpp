@@ -179,6 +179,32 @@ TEST_F(Sweep, complains)
     EXPECT_NE(sweep_complaint("case = \"case.toml\"\n").find("the sweep has no runs"), std::string::npos);
 }
 
+// Here and once, not in every run under the name of an override.
+TEST_F(Sweep, says_where_a_name_is_misspelt)
+{
+    EXPECT_EQ(sweep_complaint(with(valid_sweep, "\"grid.levels\"", "\"grid.levls\"")),
+              "study.toml:8:7: error: unknown key 'levls' in [grid]\n"
+              "    8 | key = \"grid.levls\"\n"
+              "      |       ^~~~~~~~~~~~  did you mean 'levels'?\n"
+              "   keys here: cell, edge, levels, origin, particles_per_cell     (cleave keys grid)\n"
+              "1 error");
+    const auto expect = [](const std::string& text, const std::string& part) {
+        EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
+        EXPECT_TRUE(text.ends_with("\n1 error")) << text;
+    };
+    expect(sweep_complaint(with(valid_sweep, "\"end.cod=1\"", "\"end.cood=1\"")),
+           "study.toml:3:8: error: unknown key 'cood' in [end]\n");
+    expect(sweep_complaint(with(valid_sweep, "material.steel", "material.stel")),
+           "study.toml:5:7: error: there is no material 'stel'\n");
+    expect(sweep_complaint("case = \"case.toml\"\n[[run]]\nlabel = \"a\"\nset = [\"load.bse.velocity=1\"]\n"),
+           "study.toml:4:8: error: there is no load 'bse'\n");
+    expect(sweep_complaint(with(valid_sweep, "\"peak_force_N\"", "\"peak_force\"")),
+           "study.toml:11:11: error: the runs have no measure 'peak_force'\n"
+           "   11 | measure = \"peak_force\"\n"
+           "      |           ^~~~~~~~~~~~  did you mean 'peak_force_N'?\n"
+           "   measures: peak_force_N, ");
+}
+
 TEST(StudyFiles, of_the_cases_can_be_read)
 {
     const std::filesystem::path cases = std::filesystem::path(CLEAVE_SOURCE_DIR) / "cases";

@@ -163,14 +163,16 @@ TEST(VdbFile, CountsTheFramesUpToAStep)
 {
     const support::Folder folder;
     solver::State state = sample::state();
-    EXPECT_EQ(io::last_vdb_frame(folder.path(), 1000), 0);
+    EXPECT_EQ(io::last_vdb_frame(folder.path(), 1000).number, 0);
+    EXPECT_EQ(io::last_vdb_frame(folder.path(), 1000).step, -1);
     for (int frame = 1; frame <= 3; ++frame) {
         state.clock.step = 100 * frame;
         write(folder.path(), state, options(), frame);
     }
-    EXPECT_EQ(io::last_vdb_frame(folder.path(), 99), 0);
-    EXPECT_EQ(io::last_vdb_frame(folder.path(), 200), 2);
-    EXPECT_EQ(io::last_vdb_frame(folder.path(), 1000), 3);
+    EXPECT_EQ(io::last_vdb_frame(folder.path(), 99).number, 0);
+    EXPECT_EQ(io::last_vdb_frame(folder.path(), 200).number, 2);
+    EXPECT_EQ(io::last_vdb_frame(folder.path(), 250).step, 200);
+    EXPECT_EQ(io::last_vdb_frame(folder.path(), 1000).number, 3);
     io::write_file(folder.path() / "vol_0002.vdb", "no volume");
     EXPECT_THROW(io::last_vdb_frame(folder.path(), 1000), core::FileError);
 }

@@ -266,6 +266,18 @@ TEST(Onset, weak_plane_is_the_only_one_that_breaks)
 }
 
 /// B29: near both thresholds the mode may follow the noise; away from them it may not.
+TEST(Onset, ratio_on_a_plane_exceeds_one_where_the_plane_breaks)
+{
+    const Decohesion law = paper();
+    EXPECT_EQ(onset_ratio(law, {2 * law.s_max, 0.5 * law.tau_max}), 2);
+    EXPECT_EQ(onset_ratio(law, {-2 * law.s_max, 0.5 * law.tau_max}), 0.5);
+    Samples samples;
+    for (int i = 0; i < 100; ++i) {
+        const PlaneTraction traction{samples.uniform(-2, 2) * law.s_max, samples.uniform(0, 2) * law.tau_max};
+        EXPECT_EQ(onset_ratio(law, traction) > 1, failing_mode(law, traction).has_value());
+    }
+}
+
 TEST(Onset, mode_is_stable_away_from_the_double_threshold)
 {
     Samples samples;

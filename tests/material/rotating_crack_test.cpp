@@ -94,6 +94,33 @@ TEST(RotatingCrack, balances_energy_while_it_turns)
     EXPECT_LT(worst, 2e-3 * probe.decohesion_work);
 }
 
+/// Turned where the tension is high, back where it is low, round after round: none gives work back. (Every step of a
+/// probe must not.)
+TEST(RotatingCrack, turning_to_and_fro_gives_no_work_back)
+{
+    Probe probe(brittle(1), Sym{{1001, 0, 0, 0, 0, 0}}, spacing);
+    double worst = 0;
+    const auto strain = [&](const Sym& direction, int steps) {
+        for (int i = 0; i < steps; ++i) {
+            probe.strain(1e-6 * direction);
+            worst = std::max(worst, std::abs(probe.missing_energy(steel())));
+        }
+    };
+    const Sym open{{1, 0, 0, 0, 0, 0}}, turn{{0, 0, 0, 1, 0, 0}}, unload{{-0.5, -0.5, 0, 0, 0, 0}};
+    strain(open, 4000);
+    for (int round = 0; round < 4; ++round) {
+        const double before = probe.decohesion_work;
+        strain(turn, 3000);
+        EXPECT_GT(std::abs(probe.normal()[1]), 0.2);
+        strain(unload, 3000);
+        strain(-1.0 * turn, 3000);
+        EXPECT_LT(std::abs(probe.normal()[1]), 0.01);
+        strain(-1.0 * unload, 3000);
+        EXPECT_GE(probe.decohesion_work, before);
+    }
+    EXPECT_LT(worst, 2e-3 * probe.decohesion_work);
+}
+
 /// B14, Willam, Pramono & Sture 1987: the fixed crack carries more than four strengths before it is through
 /// (tests/material/separation_test.cpp). The rotating one only what the strain along its second axis makes, which no
 /// single plane sees: E e_2 = 0.1 E e_1.

@@ -213,16 +213,19 @@ TEST(Regrid, particles_are_ordered_by_leaf_cell_and_number)
     }
 }
 
-TEST(Regrid, a_position_that_is_no_number_names_the_particle)
+// No number, or beyond what an index of a cell can name.
+TEST(Regrid, a_position_that_is_no_place_names_the_particle)
 {
-    Body body = seeded();
-    body.particles.position[1][7] = std::numeric_limits<Real>::quiet_NaN();
-    const grid::Refinement refinement(3);
-    try {
-        refine::order(transfer::Formulation::updated, refinement, body.levels, body.particles);
-        FAIL() << "no error";
-    } catch (const core::NumericalError& error) {
-        EXPECT_NE(std::string(error.what()).find("particle " + std::to_string(body.particles.id[7]) + " "),
-                  std::string::npos);
+    for (const Real away : {std::numeric_limits<Real>::quiet_NaN(), 1e12}) {
+        Body body = seeded();
+        body.particles.position[1][7] = away;
+        const grid::Refinement refinement(3);
+        try {
+            refine::order(transfer::Formulation::updated, refinement, body.levels, body.particles);
+            FAIL() << "no error";
+        } catch (const core::NumericalError& error) {
+            EXPECT_NE(std::string(error.what()).find("particle " + std::to_string(body.particles.id[7]) + " "),
+                      std::string::npos);
+        }
     }
 }

@@ -2,6 +2,7 @@
 #include "tests/regression/program.h"
 #include "tests/support/folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fcntl.h>
@@ -9,7 +10,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -99,6 +102,15 @@ bool has_checkpoint(const fs::path& directory)
     });
 }
 
+/// What a run has left, by relative path; its log goes on whatever happens.
+std::map<std::string, std::string> results_in(const fs::path& directory)
+{
+    std::map<std::string, std::string> results;
+    for (const std::string& file : test::files_below(directory))
+        if (file != "log.txt") results[file] = test::contents(directory / file);
+    return results;
+}
+
 /// @param series  the lists of frames, too
 void expect_same_results(const fs::path& one, const fs::path& other, bool series)
 {
@@ -171,17 +183,27 @@ TEST_F(Program, a_run_in_three_parts_leaves_the_files_of_one)
 }
 
 // Ended between two frames, gone on to the end of the other run: the same bits, and the frame of the first end stays.
+// The opening passes the first 0.3 um between the last line of the history and that end: what is due by it is not due
+// again. Tables are those of the checkpoint, whatever has become of their files.
 TEST_F(Program, an_ended_run_goes_on_to_a_later_end)
 {
+    const std::string force = "measure=[{name=\"pin_N\",load={name=\"upper_pin\",what=\"force\",component=\"y\"}}]";
     const auto keeping_its_end = [&](const std::string& name, std::vector<std::string> more) {
-        more.insert(more.end(), {"--set", "output.checkpoint.at_end=true"});
+        more.insert(more.end(), {"--set", force, "--set", "output.checkpoint.at_end=true", "--set",
+                                 "output.particles.every_cod=3e-4", "--set", "output.probes.every_cod=3e-4"});
         return test::run(tiny_preview(below(name), more));
     };
     ASSERT_EQ(keeping_its_end("one", {}).exit_code, 0);
     ASSERT_EQ(keeping_its_end("parts", {"--set", "end.time=\"0.0083 ms\""}).exit_code, 0);
+    const std::int64_t first_end = io::read_run_record(below("parts") / "run.json").steps;
+    fs::remove(below("parts") / "history.csv");
     const test::Outcome longer = keeping_its_end("parts", {"--resume"});
     ASSERT_EQ(longer.exit_code, 0) << longer.output;
     expect_same_results(below("one"), below("parts"), false);
+    EXPECT_EQ(test::contents(below("one") / "probes.csv"), test::contents(below("parts") / "probes.csv"));
+    std::vector<std::string> frames = test::files_below(below("parts") / "particles");
+    EXPECT_EQ(std::erase(frames, fmt::format("p_{:06}.hdf", first_end)), 1U);
+    EXPECT_EQ(frames, test::files_below(below("one") / "particles"));
 }
 
 // Five parts of one step, then the rest; the first frames are due in the third step, and not again in the fourth.
@@ -216,15 +238,19 @@ TEST_F(Program, a_resumed_run_writes_no_frame_twice)
         EXPECT_EQ(test::contents(below("one") / series), test::contents(below("parts") / series));
 }
 
-TEST_F(Program, a_termination_signal_stops_it_with_a_checkpoint)
+TEST_F(Program, a_termination_signal_or_a_closed_terminal_stops_it_with_a_checkpoint)
 {
-    const fs::path output = below("out.txt");
-    const pid_t process = test::start(tiny_preview(below("out"), {"--set", "end.time=\"1.5 ms\""}), output);
-    for (int n = 0; n < 200 && !fs::exists(below("out") / "history.csv"); ++n) usleep(50000);
-    kill(process, SIGTERM);
-    const test::Outcome outcome = test::wait_for(process, output);
-    EXPECT_EQ(outcome.exit_code, 75) << outcome.output;
-    EXPECT_TRUE(has_checkpoint(below("out")));
+    const auto before = std::signal(SIGHUP, SIG_DFL); // runs inherit that it is ignored, as below nohup
+    for (const auto& [signal, name] : {std::pair(SIGTERM, "term"), std::pair(SIGHUP, "hup")}) {
+        const fs::path output = below("out.txt"), directory = below(name);
+        const pid_t process = test::start(tiny_preview(directory, {"--set", "end.time=\"1.5 ms\""}), output);
+        for (int n = 0; n < 200 && !fs::exists(directory / "history.csv"); ++n) usleep(50000);
+        kill(process, signal);
+        const test::Outcome outcome = test::wait_for(process, output);
+        EXPECT_EQ(outcome.exit_code, 75) << name << outcome.output;
+        EXPECT_TRUE(has_checkpoint(directory)) << name;
+    }
+    std::signal(SIGHUP, before);
 }
 
 TEST_F(Program, bad_input_has_exit_code_2)
@@ -235,6 +261,10 @@ TEST_F(Program, bad_input_has_exit_code_2)
     EXPECT_NE(typo.output.find("cel"), std::string::npos) << typo.output;
     EXPECT_EQ(test::run(tiny_preview(below("out"), {"--set", "grid.cell=-1"})).exit_code, 2);
     EXPECT_EQ(test::run({"run", "--no-such-option"}).exit_code, 2);
+    EXPECT_EQ(test::run({"new", ""}).exit_code, 2);
+    const test::Outcome bench = test::run({"bench", "--transfer", "nodal", "--formulation", "updated"});
+    EXPECT_EQ(bench.exit_code, 2);
+    EXPECT_NE(bench.output.find("there is no scheme with all of these"), std::string::npos) << bench.output;
     const test::Outcome command = test::run({"chek"});
     EXPECT_EQ(command.exit_code, 2);
     EXPECT_NE(command.output.find("there is no command 'chek'; did you mean 'check'?"), std::string::npos)
@@ -277,11 +307,16 @@ TEST_F(Program, a_directory_that_holds_a_run_is_not_overwritten)
 TEST_F(Program, a_refused_resume_leaves_the_run_as_it_was)
 {
     ASSERT_EQ(test::run(tiny_preview(below("out"), {"--walltime", "0"})).exit_code, 75);
-    const std::string resolved = test::contents(below("out") / "resolved.toml");
-    const std::string record = test::contents(below("out") / "run.json");
-    EXPECT_EQ(test::run(tiny_preview(below("out"), {"--resume", "--set", "numerics.cfl=0.3"})).exit_code, 2);
-    EXPECT_EQ(test::contents(below("out") / "resolved.toml"), resolved);
-    EXPECT_EQ(test::contents(below("out") / "run.json"), record);
+    for (const bool killed : {false, true}) { // before its first checkpoint
+        if (killed) fs::remove_all(below("out") / "checkpoint");
+        const auto before = results_in(below("out"));
+        const test::Outcome other = test::run(tiny_preview(below("out"), {"--resume", "--set", "numerics.cfl=0.3"}));
+        EXPECT_EQ(other.exit_code, 2) << killed;
+        EXPECT_NE(other.output.find("it belongs to another case"), std::string::npos) << other.output;
+        EXPECT_TRUE(results_in(below("out")) == before) << killed;
+    }
+    // Its own case starts again.
+    EXPECT_EQ(test::run(tiny_preview(below("out"), {"--resume", "--walltime", "0"})).exit_code, 75);
 }
 
 TEST_F(Program, force_removes_what_the_run_before_left)
@@ -295,6 +330,18 @@ TEST_F(Program, force_removes_what_the_run_before_left)
     EXPECT_FALSE(fs::exists(below("out") / "vdb"));
     EXPECT_FALSE(fs::exists(below("out") / "particles"));
     EXPECT_TRUE(fs::exists(below("out") / "note.txt"));
+}
+
+TEST_F(Program, force_keeps_what_the_run_before_left_until_the_new_one_has_begun)
+{
+    ASSERT_EQ(test::run(tiny_preview(below("out"), {"--walltime", "0"})).exit_code, 75);
+    const auto before = results_in(below("out"));
+    const std::string faceless =
+        "load.push={region={box={lower=[31,-1,-inf],upper=[inf,1,inf]}},pressure=1,facing=[-1,0,0]}";
+    const test::Outcome outcome = test::run(tiny_preview(below("out"), {"--force", "--set", faceless}));
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.output.find("load 'push' finds no surface"), std::string::npos) << outcome.output;
+    EXPECT_TRUE(results_in(below("out")) == before);
 }
 
 TEST_F(Program, a_second_run_in_a_directory_is_refused)

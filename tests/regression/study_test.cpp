@@ -1,5 +1,7 @@
 /// `cleave chart` and `cleave sweep` as a user calls them, on a bar that takes milliseconds.
 #include "io/chart_file.h"
+#include "io/job_record.h"
+#include "io/run_record.h"
 #include "tests/regression/program.h"
 #include "tests/support/folder.h"
 
@@ -193,8 +195,14 @@ TEST_F(Study, chart_complains_about_what_it_cannot_do)
     write("suite.toml", wrong);
     outcome = test::run(chart());
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_NE(outcome.output.find("numbers there: measures.peak_force_N"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("did you mean 'measures.peak_force_N'?"), std::string::npos) << outcome.output;
     EXPECT_EQ(test::run({"chart", "--advise", at("bar.toml")}).exit_code, 2); // no --error
+    outcome = test::run({"chart", "--advise", at("bar.toml"), "--error", "2"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.output.find("did you mean 2%?"), std::string::npos) << outcome.output;
+    outcome = test::run({"chart", "--advise", at("bar.toml"), "--error", "2%", "--without", "c1-wave"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.output.find("no scene 'c1-wave'; did you mean 'c1-waves'?"), std::string::npos) << outcome.output;
     EXPECT_EQ(test::run({"chart", "--summary", "--advise", at("bar.toml")}).exit_code, 2);
     EXPECT_EQ(test::run({"chart", at("suite.toml"), "--scene", "pulled bor", "-o", at("out")}).exit_code, 2);
 }
@@ -217,6 +225,24 @@ TEST_F(Study, sweep_tells_the_nearest_run_first)
         return std::strtod(table.c_str() + table.find("done,", at_line) + 5, nullptr);
     };
     EXPECT_EQ(soft < stiff, number(soft) < number(stiff)) << table;
+    EXPECT_EQ(test::run(words).output.find("[1/"), std::string::npos);
+}
+
+// It may have been refused because another run was in its directory at that time.
+TEST_F(Study, a_run_that_was_refused_is_run_again)
+{
+    const std::vector<std::string> words{"sweep", at("sweep.toml"), "-o", at("out")};
+    ASSERT_EQ(test::run(words).exit_code, 0);
+    const fs::path directory = directory_ / "out/runs/youngs_modulus=300000";
+    io::JobRecord job = *io::read_job_record(directory / "job.json");
+    job.exit_code = 2;
+    io::write_job_record(directory / "job.json", job);
+    io::RunRecord record = io::read_run_record(directory / "run.json");
+    record.status = "running"; // the other was killed
+    io::write_run_record(directory / "run.json", record);
+    const test::Outcome again = test::run(words);
+    EXPECT_NE(again.output.find("[1/1] youngs_modulus=300000"), std::string::npos) << again.output;
+    EXPECT_EQ(io::read_job_record(directory / "job.json")->exit_code, 0) << again.output;
     EXPECT_EQ(test::run(words).output.find("[1/"), std::string::npos);
 }
 

@@ -334,3 +334,21 @@ TEST(Loads, a_symmetry_plane_between_nodes_is_an_input_error)
     EXPECT_EQ(complaint(problem), "symmetry plane y = 0.2 mm lies between node planes of level 0 (nearest: 0 mm); move "
                                   "it or set grid.origin");
 }
+
+// Nodes of a symmetry plane stay in it, so a load that moves them along its normal would do nothing there.
+TEST(Loads, a_load_that_moves_nodes_of_a_symmetry_plane_out_of_it_is_an_input_error)
+{
+    for (const auto transfer : {solver::Transfer::flip, solver::Transfer::nodal}) {
+        solver::Problem problem = support::bar(support::metal(), 1, 0);
+        problem.numerics.transfer = transfer;
+        problem.symmetry = {{0, 0}, {1, 0}};
+        for (const std::optional<Real>& kept : {std::optional<Real>(), std::optional<Real>(0)}) {
+            problem.loads[1].velocity = {0.0, kept, 0.0};
+            EXPECT_EQ(complaint(problem), "");
+        }
+        problem.loads[1].velocity[1] = -1;
+        EXPECT_EQ(complaint(problem),
+                  "load 'bottom' moves nodes of the symmetry plane y = 0 mm along y, out of the plane: let its region "
+                  "end before the plane, or leave that component \"free\"");
+    }
+}

@@ -147,3 +147,61 @@ TEST(Measures, many_values_become_one)
     EXPECT_NEAR(results[2], results[1] / results[0], 1e-12);
     EXPECT_TRUE(std::isnan(reduced(period, series(10, 0.1, [](Real t) { return t; }))));
 }
+
+// A falling value with a negative scale is a result that rises: its largest is meant, not that of the value.
+TEST(Measures, when_max_is_when_the_scaled_result_was_largest)
+{
+    using enum solver::Reduction::At;
+    const auto wave = series(300, 0.01, [](Real t) { return std::sin(2 * std::numbers::pi / 3 * t); });
+    std::vector<solver::Quantity> quantities{quantity("a", solver::Energy{}), quantity("t", solver::Energy{})};
+    const auto time = [&](Real scale, solver::Reduction::At at) {
+        quantities[0].scale = scale;
+        quantities[1].reduction.at = at;
+        return solver::results(quantities, wave)[1];
+    };
+    for (const bool falls : {false, true}) {
+        quantities[0].reduction.at = falls ? min : max;
+        quantities[0].scale = falls ? -2 : 2;
+        EXPECT_NEAR(std::abs(solver::results(quantities, wave)[0]), 2, 1e-9);
+        EXPECT_EQ(solver::results(quantities, wave)[0] < 0, falls);
+        quantities[0].reduction.at = end;
+        EXPECT_NEAR(time(falls ? -2 : 2, when_max), falls ? 2.25 : 0.75, 1e-9);
+        EXPECT_NEAR(time(falls ? -2 : 2, when_min), falls ? 0.75 : 2.25, 1e-9);
+    }
+}
+
+TEST(Measures, a_crack_along_the_second_axis_is_at_90_degrees)
+{
+    const auto angle = [](Real slope) {
+        Job run = moved_bar();
+        particles::Particles& particles = run.state.particles;
+        particles.cracks.resize(1);
+        particles.cracks[0].damage = 1;
+        for (std::size_t p = 0; p < 4; ++p) {
+            const Real y = static_cast<Real>(p);
+            particles.rest_position[0][p] = 1 + slope * y;
+            particles.rest_position[1][p] = y;
+            particles.crack[p] = 0;
+        }
+        solver::CrackQuantity line;
+        line.what = solver::CrackQuantity::What::angle;
+        return value_of(line, run.problem.materials, particles);
+    };
+    for (const Real rounding : {0.0, 1e-11, -1e-11}) EXPECT_NEAR(angle(rounding), 90, 1e-8);
+    for (const Real slope : {0.1, -0.1}) EXPECT_NEAR(angle(slope), std::atan(1 / slope) * 180 / std::numbers::pi, 1e-8);
+}
+
+// A mean over no time is no force; 0 would be the least one of every run.
+TEST(Measures, a_load_has_no_force_before_the_first_step)
+{
+    solver::Problem problem = support::bar(support::metal(), 1, 0.01);
+    problem.quantities = {quantity("force", solver::LoadQuantity{})};
+    problem.quantities[0].reduction.at = solver::Reduction::At::min;
+    Job run = support::started(problem);
+    const auto sample = [&] { return take_sample(run.problem, run.prepared, run.derived, run.state).value[0]; };
+    EXPECT_TRUE(std::isnan(sample()));
+    support::advance(1, run);
+    const Real force = sample();
+    EXPECT_GT(force, 0);
+    EXPECT_EQ(solver::results(run.problem.quantities, run.state.samples)[0], force);
+}

@@ -210,28 +210,33 @@ bool near_onset(const DenseNodal& mpm, const std::vector<std::size_t>& cell)
 void start_cracks(const DenseNodal& mpm, const std::vector<std::size_t>& cell, const std::vector<Strain>& strain,
                   Real dt, Real spacing, std::vector<std::optional<core::Crack>>& fresh)
 {
-    Sym mean{};
-    Real volume = 0;
     core::Vec<Real> nearest{};
-    bool cracked = false;
-    for (const std::size_t n : cell) {
-        const NodalPoint& p = mpm.points[n];
-        if (p.crack && !cracked) nearest = {p.crack->normal};
-        cracked = cracked || p.crack;
-        if (p.crack) continue;
-        mean = mean + p.rest_volume * p.stress;
-        volume += p.rest_volume;
-    }
+    for (const std::size_t n : cell)
+        if (const NodalPoint& p = mpm.points[n]; p.crack) {
+            nearest = {p.crack->normal};
+            break;
+        }
     if (!near_onset(mpm, cell)) return;
-    mean = (1 / volume) * mean;
+    const auto mean_of = [&](std::uint8_t material) { // of its intact points
+        Sym mean{};
+        Real volume = 0;
+        for (const std::size_t n : cell) {
+            const NodalPoint& p = mpm.points[n];
+            if (p.crack || p.material != material) continue;
+            mean = mean + p.rest_volume * p.stress;
+            volume += p.rest_volume;
+        }
+        return (1 / volume) * mean;
+    };
     for (const std::size_t n : cell) {
         const NodalPoint& p = mpm.points[n];
         const material::Material& m = mpm.laws.materials[p.material];
         if (p.crack || !m.decohesion) continue;
         Mat l = strain[n].increment;
         for (Real& entry : l.m) entry /= dt;
-        fresh[n] = material::onset(*m.decohesion, m.elastic, m.decohesion->smoothed_onset ? mean : p.stress, p.stress,
-                                   {l, nearest}, spacing, mpm.time);
+        fresh[n] =
+            material::onset(*m.decohesion, m.elastic, m.decohesion->smoothed_onset ? mean_of(p.material) : p.stress,
+                            p.stress, {l, nearest}, spacing, mpm.time);
     }
 }
 

@@ -1,6 +1,7 @@
 /// Whole scenes in code: a bar, a plate with pins, and how to advance them.
 #pragma once
 
+#include "grid/damping.h"
 #include "solver/nodal.h"
 #include "solver/step.h"
 
@@ -40,7 +41,8 @@ void restart_with(const Change& change, Job& run)
     }
     change(state.particles);
     transfer::scatter(run.prepared.options, run.prepared.laws, state.strays, state.particles, state.levels);
-    if (nodal) solver::start_nodal(run.problem, run.prepared, state);
+    if (nodal) solver::start_nodal(run.prepared, state);
+    if (run.problem.numerics.damps_fast_motion_only()) grid::start_means(state.levels);
 }
 
 /// Particles with every column, whatever the scheme.

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <limits>
 #include <map>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -547,5 +548,19 @@ TEST(Gimp, empty_coarse_cells_that_fine_boxes_reach_are_refined)
         std::vector<transfer::BoxPart> parts;
         ASSERT_TRUE(
             (transfer::BoxCutter{scene.options, scene.levels, scene.refinement}.cut(scene.particles, p, parts)));
+    }
+}
+
+// Whoever places the particle names it: here its cells, which no index can name, must only not be looked for.
+TEST(Gimp, boxes_flung_beyond_all_cells_are_not_cut)
+{
+    Scene scene = support::scene_of(support::topologies()[1], boxes(Transfer::flip), {support::soft_elastic()},
+                                    support::Layout::regular);
+    for (const Real away : {1e12, -1e12, std::numeric_limits<Real>::quiet_NaN()}) {
+        for (std::size_t a = 0; a < 3; ++a) scene.particles.position[a][5] = away;
+        std::vector<transfer::BoxPart> parts;
+        EXPECT_FALSE(
+            (transfer::BoxCutter{scene.options, scene.levels, scene.refinement}.cut(scene.particles, 5, parts)));
+        EXPECT_TRUE(parts.empty());
     }
 }

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -42,13 +43,14 @@ core::Sym<Real> mean_of(const Scene& scene, const transfer::Ball& ball)
 
 /// Cells of 0.5 mm about the origin of the lattice: those of a block of side 6 that `keep` takes.
 template <class Keep>
-Scene block(const std::vector<grid::WallPlane>& walls, const Keep& keep)
+Scene block(const std::vector<grid::WallPlane>& walls, const Keep& keep,
+            const material::Material& metal = support::soft_elastic())
 {
     support::Topology topology = support::topology_of("block", 1, 3, [](const grid::CellKey&) { return false; });
     std::erase_if(topology.cells, [&](const grid::CellKey& key) { return !keep(key.cell); });
     transfer::PassOptions options;
     options.walls = walls;
-    return support::scene_of(topology, options, {support::soft_elastic()}, support::Layout::regular);
+    return support::scene_of(topology, options, {metal}, support::Layout::regular);
 }
 
 bool everything(const Index3&)
@@ -56,12 +58,41 @@ bool everything(const Index3&)
     return true;
 }
 
+std::size_t slot_at(const Scene& scene, int level, const Index3& cell)
+{
+    return static_cast<std::size_t>(grid::active_slot(scene.levels, level, cell));
+}
+
 transfer::Ball ball_at(const Scene& scene, int level, const Index3& cell, Real radius, std::uint8_t material = 0)
 {
-    const std::int64_t slot = grid::active_slot(scene.levels, level, cell);
     return transfer::ball_about(scene.options, scene.levels, scene.particles,
-                                transfer::occupied_cell(scene.levels, static_cast<std::size_t>(slot)), material,
-                                radius);
+                                transfer::occupied_cell(scene.levels, slot_at(scene, level, cell)), material, radius);
+}
+
+/// The metal ahead of cell 0 of level 0.
+transfer::Ball ball_ahead(const Scene& scene, const Vec3& way, Real length)
+{
+    return transfer::ball_ahead(scene.options, scene.levels, scene.particles,
+                                transfer::occupied_cell(scene.levels, slot_at(scene, 0, {0, 0, 0})), 0, way, length);
+}
+
+/// A crack across y that is through.
+core::Crack through_crack()
+{
+    core::Crack crack;
+    crack.normal = {0, 1, 0};
+    crack.damage = 1;
+    crack.normal_strength = crack.tangential_strength = 1;
+    crack.effective_length = 0.5;
+    return crack;
+}
+
+/// Give all particles of a cell of level 0 a crack.
+void put_crack(const Index3& cell, const core::Crack& crack, Scene& scene)
+{
+    const std::size_t slot = slot_at(scene, 0, cell);
+    for (std::uint32_t p = scene.levels.cell_start[slot]; p < scene.levels.cell_start[slot + 1]; ++p)
+        transfer::record({p, crack}, scene.particles);
 }
 
 Real linear(std::size_t component, const Vec3& x)
@@ -128,31 +159,55 @@ TEST(Nonlocal, levels_do_not_matter)
     }
 }
 
-TEST(Nonlocal, a_symmetry_plane_cuts_nothing_off)
+namespace
+{
+/// A block, its half above z = 0 and its quarter below x = 0.5 as well. The stress is symmetric about both planes: what
+/// changes its sign in a mirror is odd there.
+struct Mirrored
 {
     Scene whole = block({}, everything);
     Scene half = block({{2, 0}}, [](const Index3& cell) { return cell[2] >= 0; });
     Scene quarter = block({{2, 0}, {0, 1}}, [](const Index3& cell) { return cell[2] >= 0 && cell[0] < 1; });
-    // Symmetric about z = 0 and x = 0.5: stresses that change sign in a mirror are odd there.
-    const auto field = [](const Scene& scene) {
-        return [origin = scene.levels.origin](std::size_t n, const Vec3& at) {
-            const Vec3 x = at - origin - Vec3(0.5, 0, 0);
-            const Real even = 1 + x[0] * x[0] + x[2] * x[2] + x[1];
-            const Real odd[6] = {1, 1, 1, x[0], x[2], x[2] * x[0]};
-            return even * odd[n];
-        };
-    };
-    put_stress(field(whole), whole);
-    put_stress(field(half), half);
-    put_stress(field(quarter), quarter);
-    const core::Sym<Real> expected = mean_of(whole, ball_at(whole, 0, {0, 0, 0}, 0.9));
-    const core::Sym<Real> in_half = mean_of(half, ball_at(half, 0, {0, 0, 0}, 0.9));
-    const core::Sym<Real> in_quarter = mean_of(quarter, ball_at(quarter, 0, {0, 0, 0}, 0.9));
-    for (std::size_t n = 0; n < 6; ++n) {
-        EXPECT_GT(std::abs(expected.s[n]), 0.01);
-        EXPECT_NEAR(in_half.s[n], expected.s[n], 1e-12);
-        EXPECT_NEAR(in_quarter.s[n], expected.s[n], 1e-12);
+
+    Mirrored()
+    {
+        for (Scene* scene : {&whole, &half, &quarter})
+            put_stress(
+                [origin = scene->levels.origin](std::size_t n, const Vec3& at) {
+                    const Vec3 x = at - origin - Vec3(0.5, 0, 0);
+                    const Real even = 1 + x[0] * x[0] + x[2] * x[2] + x[1];
+                    const Real odd[6] = {1, 1, 1, x[0], x[2], x[2] * x[0]};
+                    return even * odd[n];
+                },
+                *scene);
     }
+};
+
+/// `ball(scene)` is as large, with the same mean, whatever part of the block there is.
+template <class BallOf>
+void expect_same_in_part(const Mirrored& model, const BallOf& ball)
+{
+    const core::Sym<Real> expected = mean_of(model.whole, ball(model.whole));
+    for (const Scene* part : {&model.half, &model.quarter}) {
+        EXPECT_EQ(ball(*part).particle.size(), ball(model.whole).particle.size());
+        const core::Sym<Real> mean = mean_of(*part, ball(*part));
+        for (std::size_t n = 0; n < 6; ++n) {
+            EXPECT_GT(std::abs(expected.s[n]), 0.01);
+            EXPECT_NEAR(mean.s[n], expected.s[n], 1e-12);
+        }
+    }
+}
+} // namespace
+
+TEST(Nonlocal, a_symmetry_plane_cuts_nothing_off)
+{
+    expect_same_in_part({}, [](const Scene& scene) { return ball_at(scene, 0, {0, 0, 0}, 0.9); });
+}
+
+TEST(Nonlocal, a_symmetry_plane_does_not_end_the_metal_ahead_of_a_crack)
+{
+    for (const Vec3& way : {Vec3(0.5, -0.5, -1), Vec3(1, 0.5, 0.5), Vec3(1, 0, -1)})
+        expect_same_in_part({}, [&](const Scene& scene) { return ball_ahead(scene, way.normalized(), 1.1); });
 }
 
 // A slab one cell thick between two symmetry planes is plane strain: mirrors see each other.
@@ -205,6 +260,14 @@ material::Material fails_in_shear(Real radius)
     return metal;
 }
 
+/// Particles that start.
+std::size_t start(Scene& scene)
+{
+    transfer::Lattice none;
+    transfer::NonlocalTable table;
+    return transfer::start_nonlocal_cracks(scene.options, scene.laws, scene.levels, none, scene.particles, table);
+}
+
 /// A cell with a crack across y.
 struct CrackedCell
 {
@@ -220,8 +283,7 @@ std::size_t started(Real radius, const std::optional<CrackedCell>& cracked, Real
 {
     material::Material metal = fails_in_shear(radius);
     metal.decohesion->crack_exclusion = 1.1;
-    Scene scene = support::scene_of(support::topology_of("block", 1, 3, [](const grid::CellKey&) { return false; }), {},
-                                    {metal}, support::Layout::regular);
+    Scene scene = block({}, everything, metal);
     const auto cell_of = [&](std::size_t p) {
         return Index3(((support::vector_of(scene.particles.rest_position, p) - scene.levels.origin) / 0.5)
                           .array()
@@ -232,19 +294,14 @@ std::size_t started(Real radius, const std::optional<CrackedCell>& cracked, Real
     for (std::size_t p = 0; p < scene.particles.size(); ++p) {
         const Index3 cell = cell_of(p);
         if (cell[0] >= 0 && cell[0] < row && cell[1] == 0 && cell[2] == 0) scene.particles.stress[3][p] = load;
-        if (!cracked || cell != cracked->cell) continue;
-        core::Crack crack;
-        crack.normal = {0, 1, 0};
-        crack.damage = cracked->damage;
-        crack.normal_strength = crack.tangential_strength = 1;
-        crack.effective_length = 0.5;
-        scene.particles.stress[3][p] = cracked->stress;
-        scene.particles.crack[p] = static_cast<std::int32_t>(scene.particles.cracks.size());
-        scene.particles.cracks.push_back(crack);
+        if (cracked && cell == cracked->cell) scene.particles.stress[3][p] = cracked->stress;
     }
-    transfer::Lattice none;
-    transfer::NonlocalTable table;
-    return transfer::start_nonlocal_cracks(scene.options, scene.laws, scene.levels, none, scene.particles, table);
+    if (cracked) {
+        core::Crack crack = through_crack();
+        crack.damage = cracked->damage;
+        put_crack(cracked->cell, crack, scene);
+    }
+    return start(scene);
 }
 } // namespace
 
@@ -266,11 +323,7 @@ TEST(Nonlocal, where_a_crack_arrives_the_metal_ahead_decides)
 TEST(Nonlocal, metal_ahead_of_a_crack_is_as_long_whatever_the_cells)
 {
     const Scene scene = block({}, everything); // cells of 0.5 mm, particles at their quarters
-    const auto ahead = [&](const Vec3& way, Real length) {
-        const auto slot = static_cast<std::size_t>(grid::active_slot(scene.levels, 0, {0, 0, 0}));
-        return transfer::ball_ahead(scene.options, scene.levels, scene.particles,
-                                    transfer::occupied_cell(scene.levels, slot), 0, way, length);
-    };
+    const auto ahead = [&](const Vec3& way, Real length) { return ball_ahead(scene, way, length); };
     EXPECT_EQ(ahead({1, 0, 0}, 0.5).particle.size(), 8U);
     EXPECT_EQ(ahead({1, 0, 0}, 0.75).particle.size(), 12U);
     EXPECT_EQ(ahead({1, 0, 0}, 1.1).particle.size(), 16U);
@@ -281,6 +334,45 @@ TEST(Nonlocal, metal_ahead_of_a_crack_is_as_long_whatever_the_cells)
         EXPECT_TRUE(place[0] > 0 && place[0] < 1 && place[1] > 0 && place[1] < 0.5 && place[2] > 0 && place[2] < 0.5);
     }
     EXPECT_EQ(ahead(Vec3(1, 1, 0).normalized(), 1.1).particle.size(), 18U);
+}
+
+// Cracks beyond a symmetry plane are the images of those before it.
+TEST(Nonlocal, a_symmetry_plane_hides_no_cracks)
+{
+    Mirrored model;
+    const auto put_cracks = [](int z, Scene& scene) {
+        core::Crack crack = through_crack();
+        const Vec3 normal = Vec3(0.1, 0.9, z < 0 ? -0.3 : 0.3).normalized();
+        crack.normal = {normal[0], normal[1], normal[2]};
+        put_crack({1, 0, z}, crack, scene);
+        put_crack({0, 2, z}, crack, scene); // not beside the cell
+    };
+    put_cracks(0, model.half);
+    put_cracks(0, model.whole);
+    put_cracks(-1, model.whole);
+    const transfer::Lattice none;
+    const transfer::NonlocalTable table;
+    const auto expect_same = [](const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+        EXPECT_TRUE(a.size() == b.size() && std::is_permutation(a.begin(), a.end(), b.begin(), [](auto& x, auto& y) {
+                        return (x - y).norm() < 1e-12;
+                    }));
+    };
+    std::vector<Vec3> offsets[2], normals[2], ways[2];
+    for (const bool halved : {false, true}) {
+        const Scene& scene = halved ? model.half : model.whole;
+        const transfer::NonlocalView view{scene.options, scene.laws, scene.levels, none, table};
+        const std::size_t slot = slot_at(scene, 0, {0, 0, 0});
+        for (const transfer::Neighbour& other : transfer::cracks_near(view, scene.particles, slot, 1.1)) {
+            offsets[halved].push_back(other.offset);
+            normals[halved].emplace_back(other.normal[0], other.normal[1], other.normal[2]);
+        }
+        ways[halved] = transfer::arriving_cracks(view, scene.particles, slot);
+    }
+    EXPECT_EQ(offsets[0].size(), 4U);
+    EXPECT_EQ(ways[0].size(), 2U);
+    expect_same(offsets[0], offsets[1]);
+    expect_same(normals[0], normals[1]);
+    expect_same(ways[0], ways[1]); // in the planes of the cracks
 }
 
 // A crack beside the loaded cell forbids another one while it carries what is left of its strength.
@@ -305,6 +397,35 @@ TEST(Nonlocal, an_overloaded_cell_is_not_held_back)
 
 namespace
 {
+/// Particles that start where the plane across y is weak, 1 MPa, and carries that much in one cell, a fifth in the
+/// others; along x there are 3 MPa, which no weak plane sees.
+std::size_t started_on_weak_plane(Real load)
+{
+    material::Material metal = fails_in_shear(1.1);
+    std::swap(metal.decohesion->s_max, metal.decohesion->tau_max);
+    metal.decohesion->weak_plane = {0, 1, 0};
+    Scene scene = block({}, everything, metal);
+    const Vec3 middle = scene.levels.origin + Vec3::Constant(0.25);
+    put_stress(
+        [&](std::size_t n, const Vec3& x) {
+            const bool inside = (x - middle).cwiseAbs().maxCoeff() < 0.25;
+            return n == 0 ? 3 : n == 1 ? (inside ? load : 0.2) : 0;
+        },
+        scene);
+    return start(scene);
+}
+} // namespace
+
+// Stress along the plane neither overloads a cell, so that it goes before its ball, nor adds to the ball's.
+TEST(Nonlocal, a_weak_plane_is_tested_on_its_own_traction)
+{
+    EXPECT_EQ(started_on_weak_plane(0.9), 0U);
+    EXPECT_EQ(started_on_weak_plane(1.1), 0U);
+    EXPECT_EQ(started_on_weak_plane(1.3), 8U); // beyond one and a quarter
+}
+
+namespace
+{
 /// Particles of one cell that start in shear between the strengths of shear, 1 MPa, and of a tension bar, 1.5 MPa,
 /// after tension just below the latter.
 /// @param strain  1, plastic strain that comes with the shear
@@ -319,17 +440,12 @@ std::size_t started_after_tension(Real strain, Real memory)
     Scene scene = support::scene_of(topology, {}, {metal}, support::Layout::regular);
     scene.particles.lode_mean.assign(scene.particles.size(), 0);
     scene.particles.lode_strain.assign(scene.particles.size(), -1);
-    transfer::Lattice none;
-    transfer::NonlocalTable table;
-    const auto start = [&] {
-        return transfer::start_nonlocal_cracks(scene.options, scene.laws, scene.levels, none, scene.particles, table);
-    };
     std::fill(scene.particles.eq_plastic_strain.begin(), scene.particles.eq_plastic_strain.end(), 0.3);
     put_stress([](std::size_t n, const Vec3&) { return n == 0 ? 2.9 : 0.0; }, scene);
-    EXPECT_EQ(start(), 0U);
+    EXPECT_EQ(start(scene), 0U);
     for (Real& strained : scene.particles.eq_plastic_strain) strained += strain;
     put_stress([](std::size_t n, const Vec3&) { return n == 3 ? 1.2 : 0.0; }, scene);
-    return start();
+    return start(scene);
 }
 } // namespace
 

@@ -1,6 +1,7 @@
 /// transfer/strays.h: particles that leave the block they fill.
 #include "transfer/strays.h"
 
+#include "core/error.h"
 #include "grid/topology.h"
 #include "tests/support/scene.h"
 
@@ -67,4 +68,14 @@ TEST(Strays, with_boxes_ask_for_an_ordering_beyond_what_the_boxes_reached)
     support::Scene scene = two_levels(transfer::Basis::gimp);
     EXPECT_LT(slot_of_stray({4.5, 0.5, 0.5}, 0, scene), 0);
     EXPECT_TRUE(scene.strays.outside);
+}
+
+// No index can name its cell, so no ordering helps: the computation is unstable.
+TEST(Strays, flung_beyond_all_cells_end_the_run)
+{
+    for (const transfer::Basis basis : {transfer::Basis::trilinear, transfer::Basis::gimp})
+        for (const Vec3& scaled : {Vec3(1e12, 0.5, 0.5), Vec3(0.5, 0.5, -1e12)}) {
+            support::Scene scene = two_levels(basis);
+            EXPECT_THROW(slot_of_stray(scaled, 0, scene), core::NumericalError) << scaled.transpose();
+        }
 }
