@@ -250,7 +250,8 @@ void add_chart(CLI::App& program, Command& chosen)
     command->add_option("--error", options->error, "wanted relative error, such as 2%");
     command->add_option("--from", options->from, "chart.csv, or directory of a chart (default: docs/accuracy.csv)");
     command->add_option("--without", options->without, "do not learn from this scene; may be repeated")
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->excludes(left_out);
     command->add_option("--length", options->length, "mm that the cells have to resolve in the case (default: guessed)")
         ->check(CLI::PositiveNumber);
     command->add_option("--set", options->overrides, "key=value for the case to advise; may be repeated")
