@@ -1,6 +1,5 @@
 #include "refine/regrid.h"
 
-#include "core/error.h"
 #include "core/parallel.h"
 #include "grid/topology.h"
 #include "particles/order.h"
@@ -8,7 +7,6 @@
 #include "transfer/scaled_position.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace refine
@@ -19,11 +17,8 @@ std::vector<grid::CellKey> locate_all(const grid::Levels& levels, const grid::Re
                                       const std::array<particles::Column, 3>& at, const particles::Particles& particles)
 {
     const std::size_t count = particles.size();
-    const Real finest = std::ldexp(Real(1), levels.count - 1);
     for (std::size_t p = 0; p < count; ++p)
-        if (!transfer::is_place(finest * transfer::scaled_position(levels, at, p)))
-            throw core::NumericalError("particle " + std::to_string(particles.id[p]) +
-                                       " has no finite position: the computation is unstable (smaller numerics.cfl?)");
+        transfer::placed_position(levels, at, particles, p); // in order: the first is named
     std::vector<grid::CellKey> key(count);
     constexpr std::size_t block = 4096;
     core::parallel_for((count + block - 1) / block, [&](std::size_t b) {

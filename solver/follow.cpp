@@ -48,7 +48,6 @@ void find_places(const Problem& problem, const Prepared& prepared, State& state,
     find_load_nodes(problem, state.levels, state.loads, derived.load_nodes);
     derived.gauge_upper = places_of(state.gauge_upper, state.particles);
     derived.gauge_lower = places_of(state.gauge_lower, state.particles);
-    derived.ligaments = ligament_map(problem);
     weigh_columns(state.particles, derived.ligaments);
     derived.surface = find_surface_forces(problem, state.particles, prepared);
     derived.nonlocal = {};

@@ -16,6 +16,7 @@ void fit_cells(const Prepared& prepared, grid::Refinement& refinement, State& st
 void order_cells(const Problem& problem, const Prepared& prepared, const grid::Refinement& refinement, State& state);
 
 /// What follows from where particles and leaves are: strays, load nodes, gauges, columns of ligaments, surfaces.
+/// @pre   derived.ligaments is the map of the problem
 void find_places(const Problem& problem, const Prepared& prepared, State& state, Derived& derived);
 
 /// Refine where targets ask, split, order, rebuild; then sums and load nodes of the new order.

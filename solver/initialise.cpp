@@ -169,6 +169,7 @@ State initialise(const Problem& problem, const Prepared& prepared, Derived& deri
         state.gauge_upper = particles_near(state.particles, problem.gauge->upper, radius);
         state.gauge_lower = particles_near(state.particles, problem.gauge->lower, radius);
     }
+    derived.ligaments = ligament_map(problem);
     find_places(problem, prepared, state, derived);
     const auto scatter = [&] {
         transfer::scatter(prepared.options, prepared.laws, state.strays, state.particles, state.levels);
@@ -198,6 +199,7 @@ void resume(const Problem& problem, const Prepared& prepared, State& state, Deri
     std::vector<grid::NodeForce> force = std::move(state.levels.force);
     std::vector<grid::NodeMotion> motion = std::move(state.levels.motion);
     grid::restore(state.levels);
+    derived.ligaments = ligament_map(problem);
     find_places(problem, prepared, state, derived);
     if (nodal(problem)) {
         state.levels.force = std::move(force);

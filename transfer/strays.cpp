@@ -1,13 +1,10 @@
 #include "transfer/strays.h"
 
-#include "core/error.h"
 #include "grid/topology.h"
 #include "transfer/passes.h"
 #include "transfer/scaled_position.h"
 
 #include <algorithm>
-#include <cmath>
-#include <string>
 
 namespace transfer
 {
@@ -18,16 +15,6 @@ struct Placed
     std::int32_t leaf, cell;
     std::uint32_t particle;
 };
-
-/// A position that is a number, or an error that names the particle.
-Vec3 finite_position(const particles::Particles& particles, const grid::Levels& levels, std::uint32_t p)
-{
-    const Vec3 x = scaled_position(levels, particles.position, p);
-    if (!is_place(x * std::ldexp(Real(1), levels.count - 1)))
-        throw core::NumericalError("particle " + std::to_string(particles.id[p]) +
-                                   " has no finite position: the computation is unstable (smaller numerics.cfl?)");
-    return x;
-}
 
 /// Make the empty cell around a point active, at level `target` if that is finer than the leaf cell `key` found there.
 /// @return its slot, or -1
@@ -55,7 +42,7 @@ void assign(const PassOptions& options, const std::vector<std::uint32_t>& away, 
     std::vector<Placed> placed;
     strays.outside = false;
     for (const std::uint32_t p : away) {
-        const Vec3 x = finite_position(particles, levels, p);
+        const Vec3 x = placed_position(levels, particles.position, particles, p);
         const grid::CellKey key = strays.refinement.locate(x);
         std::int64_t slot = grid::active_slot(levels, key.level, key.cell);
         if (slot < 0 && !uses_boxes(options))
